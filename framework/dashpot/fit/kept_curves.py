@@ -44,8 +44,12 @@ class BesideMidLine:
 
     def losses(self, values: Array) -> Array:
         """The loss of every lane (lanes,) of slots in SI; a lane that fails costs infinity."""
-        beside = np.mean(self._misfit(values) ** 2, axis=1)
-        return np.hypot(self.objective.losses(values), self.weight * np.sqrt(np.where(beside >= 0.0, beside, np.inf)))
+        return np.hypot(self.objective.losses(values), self.beside(values))
+
+    def beside(self, values: Array) -> Array:
+        """What the mid line adds to the loss of every lane (lanes,), in its square."""
+        squares = np.mean(self._misfit(values) ** 2, axis=1)
+        return np.asarray(self.weight * np.sqrt(np.where(squares >= 0.0, squares, np.inf)))
 
     def linearise(self, values: Array, moves: Array, reduce: Callable[[int, Array], Result]) -> Iterator[Result]:
         """As that of an objective; the mid line (1 + k, m) comes behind all runs."""
@@ -70,6 +74,13 @@ class Refinement:
     free: NetworkSpec
     coordinates: Coordinates
     loss: Loss
+
+    def of_data(self, point: Array, loss: float) -> float:
+        """The loss of the objective alone at a point (p,) with this ``loss``."""
+        if not isinstance(self.loss, BesideMidLine):
+            return loss
+        beside = float(self.loss.beside(self.coordinates.to_values(point))[0])
+        return float(np.sqrt(max(loss**2 - beside**2, 0.0)))
 
     def at(self, point: Array) -> NetworkSpec:
         """The network with the parameters of a point (p,); a kept curve goes on being one."""

@@ -21,20 +21,30 @@ ROOM = 64e6  # bytes of all that is kept
 class LastMoved(Generic[Key]):
     """For each of so many keys the numbered rows (1 + k, n) at the last ``values``, with the last ``moves`` (k, slots).
 
-    A key whose rows take more than its share of the room has them made anew each time.
+    Of other moves at the same values only those are made that are not among the first of the kept ones. A key whose
+    rows take more than its share of the room has them made anew each time.
     """
 
     def __init__(self, keys: int) -> None:
         self._room = ROOM / max(keys, 1)
         self._kept: dict[Key, tuple[Array, Array, list[Rows]]] = {}
 
-    def __call__(self, key: Key, values: Array, moves: Array, make: Callable[[], Iterable[Rows]]) -> Iterator[Rows]:
-        """The rows of a key; they may be altered. Kept ones answer for the first of their moves, too."""
+    def __call__(
+        self, key: Key, values: Array, moves: Array, make: Callable[[Array], Iterable[Rows]]
+    ) -> Iterator[Rows]:
+        """The rows of a key, which may be altered; ``make`` makes those of some moves."""
         known = self._kept.get(key)
-        if known is None or not _begins_with(known, values, moves):
-            made = list(make())
+        same = _same(known, values, moves)
+        if known is None or same < len(moves):
+            made = list(make(moves[same:]))
+            if known is not None and same:
+                made = [
+                    (number, np.concatenate([rows[: 1 + same], more[1:]]))
+                    for (number, rows), (_, more) in zip(known[2], made, strict=True)
+                ]
             if sum(rows.nbytes for _, rows in made) > self._room:
-                self._kept.pop(key, None)
+                if not same:
+                    self._kept.pop(key, None)
                 yield from made
                 return
             known = self._kept[key] = values.copy(), moves.copy(), made
@@ -42,6 +52,10 @@ class LastMoved(Generic[Key]):
             yield number, rows[: 1 + len(moves)].copy()
 
 
-def _begins_with(known: tuple[Array, Array, list[Rows]], values: Array, moves: Array) -> bool:
-    before, others, _ = known
-    return np.array_equal(before, values) and np.array_equal(others[: len(moves)], moves)
+def _same(known: tuple[Array, Array, list[Rows]] | None, values: Array, moves: Array) -> int:
+    """How many of the moves are the first ones that are known at the same values."""
+    if known is None or not np.array_equal(known[0], values):
+        return 0
+    count = min(len(known[1]), len(moves))
+    other = np.flatnonzero((known[1][:count] != moves[:count]).any(axis=1))
+    return int(other[0]) if other.size else count

@@ -15,7 +15,7 @@ from dashpot.fit.alike import repeated
 from dashpot.fit.enough_steps import EnoughSteps, Team
 from dashpot.fit.last_moved import LastMoved
 from dashpot.fit.scored import ScoredRun
-from dashpot.fit.shelf import Shelf
+from dashpot.fit.shelf import TIMES_FOR_STEPS, Shelf
 from dashpot.kernel.columns import Rows
 from dashpot.kernel.network import CompiledNetwork, compile_network
 from dashpot.kernel.parts import MovedLanes, PartRows, Parts, take_apart
@@ -65,7 +65,8 @@ class Objective:
         self.teams = _teams(self.runs)
         self.steps = EnoughSteps(network, self.runs)
         # no methods of its own: what is large goes with the last reference, not when garbage is collected
-        self.rows: Shelf[Rows | SystemRows] = Shelf(partial(_prepared, network, self.runs))
+        times = TIMES_FOR_STEPS if isinstance(network, CompiledSystem) else 1.0
+        self.rows: Shelf[Rows | SystemRows] = Shelf(partial(_prepared, network, self.runs), times)
         self.moved: LastMoved[Team] = LastMoved(len(self.teams))
         self.scratch = Scratch()
         self.total = sum(
@@ -131,9 +132,9 @@ class Objective:
             yield number, found
 
     def _moved_as_a_whole(self, values: Array, moves: Array, team: Team) -> Iterator[tuple[int, Array]]:
-        return self.moved(team, values, moves, partial(self._solved_moved, values, moves, team))
+        return self.moved(team, values, moves, partial(self._solved_moved, team, values))
 
-    def _solved_moved(self, values: Array, moves: Array, team: Team) -> Iterator[tuple[int, Array]]:
+    def _solved_moved(self, team: Team, values: Array, moves: Array) -> Iterator[tuple[int, Array]]:
         lanes = np.concatenate([values[None], values + moves])
         solution = self._solved_around(team, lanes)
         if not self.steps.tell(team, solution, values):

@@ -23,7 +23,7 @@ from dashpot.fit.kept_curves import Refinement
 from dashpot.fit.known import STANDARD
 from dashpot.fit.linear import STEP, Loss
 from dashpot.fit.objective import Objective
-from dashpot.fit.refine import Refined, refine
+from dashpot.fit.refine import TOLERANCE, Refined, refine
 from dashpot.fit.uncertainty import effective_error
 from dashpot.model.network import NetworkSpec, Value
 from dashpot.model.prior import Prior
@@ -162,8 +162,12 @@ def refine_beside_priors(
     noise: float | None,
     watch: Callable[[float], None] = lambda loss: None,
     budget: int | None = None,
+    tolerance: float = TOLERANCE,
+    hopeless: Callable[[Array, float], bool] = lambda point, loss: False,
 ) -> tuple[Refined, float]:
     """A refinement from its start with the priors of the network, and what a sample counts for in it, in N.
+
+    For its ``tolerance`` see ``refine``; without priors it may be ``hopeless``.
 
     What a sample counts for is known where the network is fitted: with priors it is fitted twice. The first time it
     also starts where the other numbers fit best with those at the middles of their priors: what the data leave open is
@@ -171,13 +175,14 @@ def refine_beside_priors(
     """
     coordinates, priors = whole.coordinates, priors_of(whole.free)
     if priors is None:
-        return refine(whole.loss, coordinates, coordinates.start, steps, watch=watch, budget=budget), 0.0
+        start = coordinates.start
+        return refine(whole.loss, coordinates, start, steps, tolerance, watch, budget, hopeless), 0.0
     spent, starts = 0, [coordinates.start]
 
     def refined(loss: Loss, among: Coordinates, start: Array) -> Refined:
         nonlocal spent
         left = None if budget is None else max(budget - spent, 0)
-        found = refine(loss, among, start, steps, watch=watch, budget=left)
+        found = refine(loss, among, start, steps, tolerance, watch, left)
         spent += found.evaluations
         return found
 

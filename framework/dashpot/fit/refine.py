@@ -19,6 +19,7 @@ from dashpot.fit.rising_step import rising_step
 Array = NDArray[np.float64]
 
 OWN_METHOD = "gauss_newton"  # its name in files
+TOLERANCE = 1e-7  # of the loss in a step, the last one
 STRIDE = 2.3  # a logarithm moves by no more than this a step: a factor of ten
 BOXES = (0.7, 0.2, 0.05)  # smaller ones, each with the two smallest dampings
 CREEP, PATIENCE = 1e-2, 3  # of the loss in a step; so many such steps lead along a bent valley
@@ -54,10 +55,10 @@ def refine(
     coordinates: Coordinates,
     start: Array,
     steps: int = 40,
-    tolerance: float = 1e-7,
+    tolerance: float = TOLERANCE,
     watch: Callable[[float], None] = lambda loss: None,
     budget: int | None = None,
-    hopeless: Callable[[float, float], bool] = lambda before, after: False,
+    hopeless: Callable[[Array, float], bool] = lambda point, loss: False,
     thorough: bool = True,
 ) -> Refined:
     """Walk downhill from ``start`` (p,) until the loss falls by less than ``tolerance`` of itself in a step.
@@ -69,7 +70,7 @@ def refine(
     After some that hardly help at all steps are bent as the valley is; see ``bent_steps``.
     Structures of a diagnosis are refitted and compared; one that happens to leap would be ahead, so
     that they do without. The Jacobian counts as one parameter vector for each coordinate, and ``budget`` is the largest
-    number of vectors. The second of two steps, each from one loss to another that is ``hopeless``, is the last one,
+    number of vectors. The second of two steps, each to a point and a loss that are ``hopeless``, is the last one,
     unless a number grew or fell as fast as it may.
     """
     point = coordinates.allowed(start)[0]
@@ -92,7 +93,7 @@ def refine(
             straight, dampings = tries[:bent], (slack * DAMPINGS[:bent]).tolist()
             tries = np.vstack([tries, bent_steps(objective, linear, coordinates, point, straight, dampings)])
             spent += 1 + point.size + bent
-        losses = objective.losses(coordinates.to_values(tries))
+        losses = _losses(objective, coordinates, tries)
         spent += len(tries)
         best = int(np.argmin(losses))
         watch(min(loss, float(losses[best])))
@@ -108,11 +109,17 @@ def refine(
         trail = [*trail[-PATIENCE:], point] if 1.0 - loss / before < CREEP else [point]
         if 1.0 - loss / before < tolerance:
             return Refined(point, loss, Outcome.CONVERGED, spent)
-        hope = strides or not hopeless(before, loss)
+        hope = not hopeless(point, loss) or strides
         if not (hope or hoped):
             return Refined(point, loss, Outcome.LEFT_BEHIND, spent)
         hoped = hope
     return Refined(point, loss, Outcome.STEPS_SPENT, spent)
+
+
+def _losses(objective: Loss, coordinates: Coordinates, tries: Array) -> Array:
+    """The losses (tried,) of points (tried, p), equal ones simulated once: a short step is the same in all boxes."""
+    each, place = np.unique(tries, axis=0, return_inverse=True)
+    return objective.losses(coordinates.to_values(each))[place.reshape(-1)]
 
 
 def candidates(

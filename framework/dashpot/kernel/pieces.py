@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
-from dataclasses import dataclass
-from functools import cached_property
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
@@ -40,9 +39,9 @@ class SystemRows:
 
     @property
     def nbytes(self) -> int:
-        """The bytes that stay prepared for the steps which are taken first."""
-        first = self.quick or self.pieces
-        return first.nbytes if isinstance(first, Pieces) else 0
+        """The bytes of what is prepared so far, or at least of the steps that are taken first."""
+        made = [pieces for pieces in (self.quick, self.pieces) if isinstance(pieces, Pieces)]
+        return max(sum(pieces.nbytes for pieces in made), made[0].expected if made else 0)
 
     def steps(self, quick: bool) -> int:
         """How many long steps lie in a sample."""
@@ -51,35 +50,42 @@ class SystemRows:
 
 @dataclass(frozen=True, eq=False)
 class Pieces:
-    """The pieces of a record, made when they are asked for; those of a short one are ``kept``.
+    """The pieces of a record, each made when it is asked for; those of a short record are ``kept``.
 
-    Each has ``size`` samples but the first one, which has ``begin``, and the last one.
+    Each has ``size`` samples but the first one, which has ``begin``, and the last one. A sample takes ``weight`` bytes.
     """
 
     samples: int
     begin: int
     size: int
+    weight: int
     kept: bool
     make: Callable[[int, int], Piece]
+    _made: dict[int, Piece] = field(default_factory=dict)
 
     @property
     def nbytes(self) -> int:
         """The bytes of what stays prepared."""
-        return sum(piece.coarse.nbytes + piece.fine.nbytes for piece in self._all) if self.kept else 0
+        return sum(piece.coarse.nbytes + piece.fine.nbytes for piece in self._made.values())
+
+    @property
+    def expected(self) -> int:
+        """The bytes that stay prepared once the whole record was gone through."""
+        return self.samples * self.weight if self.kept else 0
 
     def __iter__(self) -> Iterator[Piece]:
-        return iter(self._all) if self.kept else self._made()
-
-    @cached_property
-    def _all(self) -> tuple[Piece, ...]:
-        return tuple(self._made())
-
-    def _made(self) -> Iterator[Piece]:
         first, end = 0, self.begin
         while first < self.samples:
             end = min(end, self.samples)
-            yield self.make(first, end)
+            yield self._piece(first, end)
             first, end = end, end + self.size
+
+    def _piece(self, first: int, end: int) -> Piece:
+        if not self.kept:
+            return self.make(first, end)
+        if first not in self._made:
+            self._made[first] = self.make(first, end)
+        return self._made[first]
 
 
 @dataclass(frozen=True, eq=False)

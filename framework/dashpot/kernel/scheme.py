@@ -12,6 +12,7 @@ new acceleration and the three before it: v = v0 + s SPEED a and x = x0 + s v0 +
 from __future__ import annotations
 
 from dataclasses import dataclass, fields
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,6 +23,7 @@ PAIR = 2
 SPEED = (9 / 24, 19 / 24, -5 / 24, 1 / 24)  # of the accelerations, the new one first
 PLACE = (38 / 360, 171 / 360, -36 / 360, 7 / 360)
 PLACE_AHEAD = (19 / 24, -10 / 24, 3 / 24)  # of those before, by the parabola through them
+KEPT = 8  # rules that stay known: a fit asks for the same ones run by run
 FILLED = 3  # steps by other rules at the begin of a record, until there are as many accelerations
 RENEWED = 16  # steps from one renewal of the tangents to the next
 FIRMEST, FASTEST = 0.2, 0.7  # of stiffness s^2/mass and damping s/mass, for the short steps
@@ -40,6 +42,7 @@ class Rule:
     renewed: Array  # 1.0 where the tangents of the laws are computed anew
 
 
+@lru_cache(maxsize=KEPT)
 def alternate(step: float, pairs: int, begins: bool = True) -> Rule:
     """The coefficients of ``pairs`` of steps of ``step`` seconds.
 

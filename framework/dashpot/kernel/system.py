@@ -36,6 +36,7 @@ Array = NDArray[np.float64]
 WIDTH = LANES  # of a group
 PAIRS = 1  # coarse steps in a sample, in pairs
 PIECE = 20_000  # samples, with a pair of coarse steps in each, that are prepared at a time
+STRETCH = 4000  # steps of which columns are computed at a time: few enough for the cache
 PROBE = 200  # samples, after which it is mostly known whether lanes are slow enough for steps of high order
 LONG_ENOUGH = 1e-2  # of the swing of a force: what long steps may be off by where they tell derivatives, to 3 % or so
 KEPT = 10 * PIECE  # of a record that stays prepared; a longer one is prepared piece by piece, each time anew
@@ -89,7 +90,8 @@ class CompiledSystem(Compiled[SystemRows]):
 
             size = max(PIECE // pairs, 1)
             begin = min(PROBE, size) if quick else size
-            return Pieces(excitation.samples, begin, size, pairs * excitation.samples <= KEPT, make)
+            weight = 3 * long * still.nbytes
+            return Pieces(excitation.samples, begin, size, weight, pairs * excitation.samples <= KEPT, make)
 
         quick = pieces(pairs, True) if self.quick and self.system.pace else None
         return SystemRows(excitation, pairs, still, pieces(PAIR * pairs, False), quick)
@@ -336,8 +338,11 @@ class CompiledSystem(Compiled[SystemRows]):
 
     def _columns(self, seen: dict[str, Array | float], count: int) -> Array:
         found = np.zeros((count, len(self.program.columns)))
-        for column, values in zip(found.T, interpret(self.program.columns, seen), strict=True):
-            column[:] = values
+        for first in range(0, count, STRETCH):
+            own = slice(first, first + STRETCH)
+            part = {name: each[own] if isinstance(each, np.ndarray) else each for name, each in seen.items()}
+            for column, values in zip(found[own].T, interpret(self.program.columns, part), strict=True):
+                column[:] = values
         return found
 
 

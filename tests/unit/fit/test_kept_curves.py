@@ -121,3 +121,17 @@ def test_numbers_beside_a_curve_that_is_not_chosen_leave_it_alone():
     assert whole.loss is objective and whole.coordinates.paths == ("slow.stiffness", "slow.relaxation_time")
     assert list(kept_curves(spec)) == ["rubber.stiffness"]
     assert not kept_curves(ground_curves(network(FREE_CURVE), runs))
+
+
+@pytest.mark.parametrize("branches", [f"{CURVE}\n{MAXWELL}", f"{FREE_CURVE}\n{MAXWELL}"])
+def test_of_a_loss_beside_a_mid_line_the_part_of_the_data_is_known_without_simulating_them(branches):
+    runs = measured(lambda name, x, dt: relaxing(x, dt), noise=2.0)
+    spec = with_ranges(ground_curves(network(branches), runs), natural_sizes(runs))
+    objective = Objective(compile_network(spec), runs)
+    whole = refinement(spec, objective, lambda slot: True)
+    point = whole.coordinates.start + 0.2 * whole.coordinates.unit
+    values = whole.coordinates.to_values(point)
+    alone = np.sqrt(
+        np.mean([np.mean(misfit**2) for misfit in np.split(objective.misfits(values)[0], [runs[0].samples])])
+    )
+    assert whole.of_data(point, float(whole.loss.losses(values)[0])) == pytest.approx(alone, rel=1e-9)

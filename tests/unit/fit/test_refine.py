@@ -197,12 +197,40 @@ def without_hope(damping):
         oil: {{element: damper, damping: {{start: {damping!r}, bounds: [0.01, 1e6]}}}}
     """)
     objective, coordinates = Objective(compile_network(spec), runs()), search_coordinates(spec)
-    found = refine(objective, coordinates, coordinates.start, tolerance=1e-12, hopeless=lambda before, after: True)
+    found = refine(objective, coordinates, coordinates.start, tolerance=1e-12, hopeless=lambda point, loss: True)
     return found.outcome, numbers(spec, coordinates, found.point)["oil.damping"]
 
 
 def test_a_refinement_without_hope_is_left_behind():
     assert without_hope(2.0 * DAMPING)[0] is Outcome.LEFT_BEHIND
+
+
+def test_points_that_are_equal_are_simulated_once():
+    branches = "rub: {element: dahl, stiffness: {start: 1e5, bounds: [1e3, 1e6]}, limit: {start: 60, bounds: [1, 1e3]}}"
+    _, objective, coordinates = ready(branches, runs())
+    asked = []
+
+    class Watched:
+        linearise = objective.linearise
+
+        def losses(self, values):
+            asked.append(values)
+            return objective.losses(values)
+
+    found = refine(Watched(), coordinates, coordinates.start)
+    assert all(len(np.unique(values, axis=0)) == len(values) for values in asked)
+    # at the end steps are shorter than all boxes
+    assert len(asked[1]) > len(asked[-1]) and found.evaluations > sum(map(len, asked))
+
+
+def test_hope_is_asked_for_with_each_point_and_its_loss():
+    branches = "rub: {element: dahl, stiffness: {start: 1e5, bounds: [1e3, 1e6]}, limit: {start: 60, bounds: [1, 1e3]}}"
+    _, objective, coordinates = ready(branches, runs())
+    told = []
+    refine(objective, coordinates, coordinates.start, hopeless=lambda point, loss: bool(told.append((point, loss))))
+    losses = [loss for _, loss in told]
+    assert len(told) > 1 and losses == sorted(losses, reverse=True)
+    assert objective.losses(coordinates.to_values(np.array([point for point, _ in told]))) == pytest.approx(losses)
 
 
 def test_a_number_that_has_dwindled_may_grow_back_before_hope_is_lost():

@@ -14,6 +14,7 @@ from dashpot import load_registry
 from dashpot.data.dataset import Dataset
 from dashpot.data.run import Run
 from dashpot.fit.api import fit_network
+from dashpot.fit.spare import REFIT_STEPS, OutOfReach
 from dashpot.kernel.api import simulate_runs
 from dashpot.model.reading import parse_network
 
@@ -81,6 +82,25 @@ def test_a_branch_that_shows_is_kept_however_small_it_is(kilograms):
     found = fitted(with_spare("inerter"), measured(rng, lambda x, v, a: kilograms * a))
     assert found.errors_of_numbers[found.free.index("inerter.inertance")] < 0.2 * kilograms
     assert found.spare == ()
+
+
+class DataAlone:
+    """A refinement whose loss is that of the data."""
+
+    def of_data(self, point, loss):
+        return loss
+
+
+@pytest.mark.parametrize("share, hopeless", [(0.9, True), (1.1, False)])
+def test_a_refit_is_out_of_reach_if_as_many_steps_as_it_may_take_are_too_few(share, hopeless):
+    total, most, gain = 100, 5000.0, 40.0
+    squares = most + gain * REFIT_STEPS / share - gain * np.arange(4)
+    squares[3] = most + gain * REFIT_STEPS / share - 0.5 * gain  # up again, which is further away than ever
+    judge = OutOfReach(DataAlone(), total, most)
+    told = [judge(np.zeros(1), float(np.sqrt(square / total))) for square in squares]
+    assert told == [False, hopeless, hopeless, True]
+    assert not judge(np.zeros(1), float(np.sqrt(0.99 * most / total)))  # it is there
+    assert not judge(np.zeros(1), float(np.sqrt(0.995 * most / total)))
 
 
 def test_of_two_that_do_the_same_one_is_told_to_go_and_not_twice():

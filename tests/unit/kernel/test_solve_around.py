@@ -127,3 +127,14 @@ def test_lanes_that_are_all_too_fast_are_not_led_to_the_end_by_steps_of_high_ord
     monkeypatch.setattr(CompiledSystem, "_march", watched)
     assert np.array_equal(stiff.solve(run, around(stiff)).force, whole)
     assert [quick for quick, _ in marched] == [True, False]
+
+
+def test_steps_of_high_order_are_not_prepared_beyond_the_place_where_all_lanes_were_too_fast(stiff):
+    run = stiff.prepare(driven())
+    assert run.quick.nbytes == 0 and run.nbytes == run.quick.expected > 0
+    stiff.solve(run, around(stiff))
+    made, whole = run.quick.nbytes, list(run.quick)
+    assert 0 < made < run.quick.nbytes == sum(piece.coarse.nbytes + piece.fine.nbytes for piece in whole)
+    assert run.quick.nbytes == pytest.approx(run.quick.expected, rel=0.01)
+    assert run.nbytes == run.quick.nbytes + run.pieces.nbytes
+    assert [id(piece) for piece in run.quick] == [id(piece) for piece in whole]

@@ -202,9 +202,10 @@ def test_a_long_record_goes_through_in_pieces_to_the_same_bits(monkeypatch, back
     whole = network.solve(network.prepare(excitation))
     measured, weight = np.zeros((2, 700)), np.ones((2, 700))
     score = network.score([network.prepare(excitation)], [measured], [weight], network.start[None])
-    for size, kept in ((300, 0), (300, 1000), (350, 0), (1, 0)):
+    for size, kept, stretch in ((300, 0, 4000), (300, 1000, 4000), (350, 0, 97), (1, 0, 4000), (700, 0, 64)):
         monkeypatch.setattr(module, "PIECE", size)
         monkeypatch.setattr(module, "KEPT", kept)
+        monkeypatch.setattr(module, "STRETCH", stretch)
         rows = network.prepare(excitation)
         found = network.solve(rows)
         for key in ("force", "motion", "error"):

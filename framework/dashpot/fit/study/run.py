@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import zlib
 from collections.abc import Iterator, Mapping, Sequence
+from concurrent.futures import Executor
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -166,10 +167,15 @@ class _Conduct:
         return found
 
     def _apart(self, ready: Sequence[ModelPlan], done: Mapping[str, ModelResult]) -> dict[str, ModelResult]:
-        """Several models, each as a piece of work on one thread."""
+        """Several models, each as a piece of work, in processes with as many threads as all of them.
+
+        Where one has no more to do, the others have its core.
+        """
         each = [(plan, {name: done[name] for name in plan.needs}) for plan in ready]
-        found = {}
-        for number, future in finished(_model_apart, replace(self, jobs=1, here=1, progress=silent), each, self.jobs):
+        found, here = {}, self.here if isinstance(self.jobs, Executor) else 1
+        for number, future in finished(
+            _model_apart, replace(self, jobs=1, here=here, progress=silent), each, self.jobs
+        ):
             plan, result = ready[number], result_of(future)
             if isinstance(result, InputError):
                 raise result
