@@ -6,8 +6,14 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from dashpot.data.run import Run
+
+Array = NDArray[np.float64]
+
+FRICTION = 2  # its row among the ratios; those before it are to a motion
+_TINY = 1e-300
 
 
 def change_by_conditions(runs: Sequence[Run]) -> float:
@@ -15,12 +21,16 @@ def change_by_conditions(runs: Sequence[Run]) -> float:
 
     Ratios are taken to deflection and to velocity, stiffness and damping; those count that are more alike.
     """
-    force = [float(np.std(run.force)) for run in runs]
-    deflection = [float(np.std(run.displacement)) for run in runs]
-    velocity = [float(np.std(np.gradient(run.displacement, run.sample_time))) for run in runs]
-    return min(_spread(force, deflection), _spread(force, velocity))
+    return float(np.min(np.ptp(ratios(runs)[:FRICTION], axis=1)))
 
 
-def _spread(forces: Sequence[float], motions: Sequence[float]) -> float:
-    ratios = [force / motion for force, motion in zip(forces, motions, strict=True) if force > 0.0 and motion > 0.0]
-    return math.log(max(ratios) / min(ratios)) if ratios else 0.0
+def ratios(runs: Sequence[Run]) -> Array:
+    """The logarithms (3, runs) of force over deflection, force over velocity, and force, deviations from the mean.
+
+    They are what is alike in a spring, in a dashpot, and in a slider.
+    """
+    force = np.array([np.std(run.force) for run in runs])
+    deflection = np.array([np.std(run.displacement) for run in runs])
+    velocity = np.array([np.std(np.gradient(run.displacement, run.sample_time)) for run in runs])
+    force, deflection, velocity = np.log(np.maximum([force, deflection, velocity], _TINY))
+    return np.array([force - deflection, force - velocity, force])

@@ -16,6 +16,8 @@ from dashpot.data.run import Run
 Array = NDArray[np.float64]
 
 SAMPLES = 2000
+# what the numbers of a force may be times those of a displacement: N against m, mm and um, kN against mm
+SWAPS = (1.0, 1e-3, 1e-6, 1e-9)
 RIDGE = 1e-8
 PLAIN = (0, 1, 4, 7)
 _TINY = 1e-300
@@ -32,7 +34,7 @@ class Sizes:
     def of(cls, runs: Sequence[Run]) -> Sizes:
         """Medians over the runs, which a single wrong unit does not move."""
         reach = float(np.median([np.max(np.abs(run.displacement)) for run in runs])) or 1.0
-        speed = float(np.median([np.quantile(np.abs(_rate(run)), 0.95) for run in runs])) or 1.0
+        speed = float(np.median([np.quantile(np.abs(rate_of(run)), 0.95) for run in runs])) or 1.0
         return cls(reach, speed)
 
 
@@ -43,6 +45,12 @@ class Moments:
     gram: Array
     right: Array
     power: float
+
+    def centred(self) -> Moments:
+        """Those of the deviations from the means."""
+        count, sums, total = self.gram[0, 0], self.gram[0], self.right[0]
+        power = max(self.power - float(total**2 / count), _TINY)
+        return Moments(self.gram - np.outer(sums, sums) / count, self.right - sums * total / count, power)
 
     def plain(self) -> Moments:
         """Those of the functions that do not run away beyond what was measured: preload, spring, dashpot, friction."""
@@ -58,7 +66,13 @@ def moments_of(x: Array, v: Array, force: Array, sizes: Sizes) -> Moments:
 
 def moments_of_run(run: Run, sizes: Sizes) -> Moments:
     """The moments of a run as it was measured."""
-    return moments_of(run.displacement, _rate(run), run.force, sizes)
+    return moments_of(run.displacement, rate_of(run), run.force, sizes)
+
+
+def swapped_moments(run: Run, sizes: Sizes) -> list[Moments]:
+    """The moments of a run with its force and its displacement taken for each other, in each pair of units."""
+    x, force, slope = run.displacement, run.force, np.gradient(run.force, run.sample_time)
+    return [moments_of(factor * force, factor * slope, x / factor, sizes) for factor in SWAPS]
 
 
 def fitted(moments: Sequence[Moments]) -> Array:
@@ -71,14 +85,19 @@ def fitted(moments: Sequence[Moments]) -> Array:
 
 
 def compared(moments: Moments, coefficients: Array) -> tuple[float, float]:
-    """Force over forecast, and the share of the square of the force that this times the forecast explains."""
-    product, predicted = float(coefficients @ moments.right), float(coefficients @ moments.gram @ coefficients)
+    """Force over forecast, and the share of the variance of the force that this times the forecast explains.
+
+    Of both what differs from their means: a weight that was not tared is predicted whatever the motion is.
+    """
+    centred = moments.centred()
+    product, predicted = float(coefficients @ centred.right), float(coefficients @ centred.gram @ coefficients)
     if not predicted > 0.0:
         return 0.0, 0.0
-    return product / predicted, product**2 / (predicted * moments.power)
+    return product / predicted, product**2 / (predicted * centred.power)
 
 
-def _rate(run: Run) -> Array:
+def rate_of(run: Run) -> Array:
+    """The velocity (n,) in m/s of the deflection as it was measured."""
     return np.gradient(run.displacement, run.sample_time)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +14,7 @@ from dashpot.text.quantity import pretty
 from dashpot.triage.agreement import MOSTLY
 from dashpot.triage.energy import ONE_IN, giving_back, works_of
 from dashpot.triage.fault import Fault
-from dashpot.triage.forecast import Moments, Sizes, compared, fitted, moments_of, moments_of_run
+from dashpot.triage.forecast import Moments, Sizes, compared, fitted, moments_of, moments_of_run, swapped_moments
 from dashpot.triage.work import CycleWork
 
 Array = NDArray[np.float64]
@@ -22,8 +22,6 @@ Array = NDArray[np.float64]
 FEWEST_OTHERS = 2
 FEWEST_TOGETHER = 2  # runs: what a single one has may be its own
 _TINY = 1e-300
-# what the numbers of a force may be times those of a displacement: N against m, mm and um, kN against mm
-_SWAPS = (1.0, 1e-3, 1e-6, 1e-9)
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,7 +50,7 @@ def work_faults(runs: Sequence[Run]) -> tuple[list[Fault], list[str]]:
             f"{pretty(delay, 's', 2)} or more none does: it comes late in all of them"
         ]
     if together := _turned_together(bad, sound, works):
-        return together, []
+        return [*together, *_turned_like(together, runs, works)], []
     return [_fault_of(run, works[run.name], sound) for run in bad], []
 
 
@@ -73,6 +71,19 @@ def _turned_together(bad: Sequence[Run], sound: Sequence[Run], works: Mapping[st
     )
     cure = f"Write 'sign: -1' under the force channel of {'all' if every else 'these'} runs"
     return [Fault(run.name, "polarity", evidence, cure, -1.0) for run in turned]
+
+
+def _turned_like(turned: Sequence[Fault], runs: Sequence[Run], works: Mapping[str, CycleWork]) -> Iterator[Fault]:
+    """The same fault of each run without closed cycles whose force goes the way of the turned ones, as measured."""
+    named = {fault.run for fault in turned}
+    like = [run for run in runs if run.name in named]
+    others = [run for run in runs if run.name not in works and np.ptp(run.displacement) > 0.0]
+    sizes = Sizes.of(like)
+    coefficients = fitted([moments_of_run(run, sizes) for run in like])
+    for run in others:
+        gain, likeness = compared(moments_of_run(run, sizes), coefficients)
+        if gain > 0.0 and likeness >= MOSTLY:
+            yield replace(turned[0], run=run.name)
 
 
 def _common_delay(bad: Sequence[Run], sound: Sequence[Run], works: Mapping[str, CycleWork]) -> float | None:
@@ -187,8 +198,7 @@ def _tries(run: Run, work: CycleWork, sizes: Sizes, coefficients: Array, in_size
         -1.0,
         "displacement",
     )
-    slope = np.gradient(force, run.sample_time)
-    swaps = [moments_of(factor * force, factor * slope, x / factor, sizes) for factor in _SWAPS]
+    swaps = swapped_moments(run, sizes)
     if swapped := [_unlike(each, coefficients) for each in swaps if _missed(each, coefficients) <= in_size]:
         yield _Try(
             "swapped_channels",

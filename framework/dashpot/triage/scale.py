@@ -10,16 +10,17 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 
 from dashpot.data.declaration import SETTING_UNITS
 from dashpot.data.run import Run
 from dashpot.text.quantity import pretty
-from dashpot.triage.agreement import FEWEST, MOSTLY, Agreement, find_agreement
-from dashpot.triage.conditions import change_by_conditions
+from dashpot.triage.agreement import ACCURACY, FEWEST, MOSTLY, Agreement, find_agreement
+from dashpot.triage.conditions import FRICTION, change_by_conditions, ratios
 from dashpot.triage.fault import Fault
-from dashpot.triage.forecast import Sizes, moments_of, moments_of_run
+from dashpot.triage.forecast import Moments, Sizes, moments_of, moments_of_run, rate_of, swapped_moments
 
 # what was measured over what it is -> how that comes about
 FORCES = {
@@ -57,6 +58,33 @@ SETTLED = 999.0
 CLEARLY = 3.0
 
 
+@dataclass(frozen=True)
+class Shared:
+    """Where some runs have been, so that they can predict another one: deflections in m, and the largest speed."""
+
+    low: float
+    high: float
+    speed: float
+
+    @classmethod
+    def of(cls, runs: Sequence[Run]) -> Shared:
+        """Where these have been."""
+        return cls(
+            min(float(np.min(run.displacement)) for run in runs),
+            max(float(np.max(run.displacement)) for run in runs),
+            max(float(np.max(np.abs(rate_of(run)))) for run in runs),
+        )
+
+    def moments(self, run: Run, sizes: Sizes) -> Moments | None:
+        """Those of a run where the others have been; None if this is less than half of its way and of theirs."""
+        x, v = run.displacement, rate_of(run)
+        there = (self.low <= x) & (x <= self.high) & (np.abs(v) <= self.speed)
+        way = min(float(np.ptp(x)), self.high - self.low)
+        if not there.any() or np.ptp(x[there]) < 0.5 * way:
+            return None
+        return moments_of(x[there], v[there], run.force[there], sizes)
+
+
 def wrong_scales(runs: Sequence[Run]) -> list[Fault]:
     """Wrong polarities and units: among runs of the same settings, and the plainest ones among all."""
     found: dict[str, Fault] = {}
@@ -85,6 +113,7 @@ def _of_group(runs: Sequence[Run], least: float) -> Iterator[Fault]:
     sizes = Sizes.of(moved)
     known = find_agreement([moments_of_run(run, sizes) for run in moved])
     if known is None:
+        yield from _by_sizes(moved)
         return
     inside = [moved[k] for k in known.inside]
     for number, run in enumerate(moved):
@@ -93,8 +122,9 @@ def _of_group(runs: Sequence[Run], least: float) -> Iterator[Fault]:
 
 
 def _fault_of(run: Run, known: Agreement, inside: Sequence[Run], sizes: Sizes, least: float) -> Fault | None:
-    gain, likeness = known.compare(moments_of_run(run, sizes))
-    if known.is_like(likeness) and gain < 0.0 and abs(math.log(-gain)) <= known.reach and least == 1.0:
+    shared = Shared.of(inside)
+    gain, likeness = known.compare(shared.moments(run, sizes) or moments_of_run(run, sizes))
+    if known.is_like(likeness) and gain < 0.0 and abs(math.log(-gain)) <= known.reach:
         return Fault(
             run.name,
             "polarity",
@@ -104,6 +134,8 @@ def _fault_of(run: Run, known: Agreement, inside: Sequence[Run], sizes: Sizes, l
         )
     change = change_by_conditions(inside)
     allowed = known.reach + change
+    if gain > 0.0 and likeness >= MOSTLY and abs(math.log(gain)) <= allowed:
+        return None
     force = _force_fault(run, gain, likeness, known, least) or _far_fault(run, gain, likeness, allowed, least)
     # where a force hardly depends on the deflection, as friction, any divisor of this makes it like the others
     beyond = change_by_conditions([*inside, run]) - change > allowed
@@ -112,7 +144,45 @@ def _fault_of(run: Run, known: Agreement, inside: Sequence[Run], sizes: Sizes, l
         # an elastic force in proportion to its deflection shows the one as the other
         nearer = _nearer(run, stroke, inside, "displacement") > _nearer(run, force, inside, "force")
         return stroke if nearer else force
-    return force or stroke
+    unit = force or stroke
+    return unit if unit and unit.factor is not None else _swapped(run, known, sizes) or unit
+
+
+def _swapped(run: Run, known: Agreement, sizes: Sizes) -> Fault | None:
+    """Force and displacement taken for each other, if the run then is what the others expect, in its size as well."""
+    for seen in swapped_moments(run, sizes):
+        gain, likeness = known.compare(seen)
+        if gain > 0.0 and likeness >= MOSTLY and abs(math.log(gain)) <= known.reach:
+            return Fault(
+                run.name,
+                "swapped_channels",
+                "with its force and displacement taken for each other it agrees with the others, as it is it does not",
+                "Swap the columns of its force and displacement channels",
+            )
+    return None
+
+
+def _by_sizes(runs: Sequence[Run]) -> Iterator[Fault]:
+    """Factors of 1000 and more where the runs do not foretell each other, as in a hydraulic mount, by sizes alone.
+
+    Of stiffness, damping and friction that counts which changes least between the others. A run is at fault if a plain
+    factor brings it into their range, or beyond it by no more than that is wide, and is clear.
+    """
+    if len(runs) <= FEWEST:
+        return
+    table = ratios(runs)
+    for number, run in enumerate(runs):
+        others = np.delete(table, number, axis=1)
+        law = int(np.argmin(np.ptp(others, axis=1)))
+        away = float(table[law, number] - 0.5 * (np.max(others[law]) + np.min(others[law])))
+        near = _near(math.exp(away), FORCES, 1.5 * float(np.ptp(others[law])) + ACCURACY, SETTLED)
+        if not (near and near[0] in PREFIXES and _is_clear(math.exp(away), near[0])):
+            continue
+        force = _unit_of_force(run, math.exp(away), near[:1], 1.0 / near[0])
+        stroke = _unit_of_stroke(run, [1.0 / near[0]])
+        inside = [other for other in runs if other is not run]
+        moved = law < FRICTION and _nearer(run, stroke, inside, "displacement") > _nearer(run, force, inside, "force")
+        yield stroke if moved else force
 
 
 def _force_fault(run: Run, gain: float, likeness: float, known: Agreement, least: float) -> Fault | None:
@@ -169,7 +239,10 @@ def _stroke_fault(run: Run, known: Agreement, sizes: Sizes, allowed: float, leas
             fitting[factor] = abs(math.log(gain))
     if not fitting:
         return None
-    fits = sorted(fitting, key=lambda each: fitting[each])
+    return _unit_of_stroke(run, sorted(fitting, key=lambda each: fitting[each]))
+
+
+def _unit_of_stroke(run: Run, fits: Sequence[float]) -> Fault:
     divisors = " or ".join(f"{factor:.6g} ({DISPLACEMENTS[factor]})" for factor in fits)
     return Fault(
         run.name,

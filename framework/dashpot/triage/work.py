@@ -94,7 +94,16 @@ def _at(passages: Array, parts: Array) -> Array:
 
 
 def _passages(x: Array) -> Array:
-    """The places, in samples, at which the deflection passes its middle between being well below and well above."""
+    """The places, in samples, at which the deflection passes its middle between being well below and well above.
+
+    The way from the start of the record to its median, such as one up to a preload, is no part of the motion.
+    """
+    above = x > np.median(x)
+    begin = int(np.argmax(above != above[0]))
+    return begin + _passages_within(x[begin:])
+
+
+def _passages_within(x: Array) -> Array:
     low, high = np.quantile(x, (0.02, 0.98))
     middle, beyond = 0.5 * (low + high), _BEYOND * (high - low)
     if not beyond > 0.0:
