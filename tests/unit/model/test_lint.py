@@ -146,6 +146,18 @@ def test_a_branch_on_which_nothing_depends():
     ]
 
 
+@pytest.mark.parametrize(
+    "before",
+    ["{setting: worked, value: 0 J}", "{fixed: 0 J, over: {setting: worked, kept: {start: 0.5}}}"],
+)
+def test_a_number_that_acts_beside_what_a_run_gives_is_not_complained_of(before):
+    """What it says of the runs before shows in no motion by itself; with nothing before it says nothing at all."""
+    oil = "element: self_heating, damping: {start: 300}, power: 5, time: 20, share: {start: 0.5}"
+    assert weak(f"it: {{{SPRING}}}\noil: {{{oil}, before: {before}}}") == []
+    (found,) = weak(f"it: {{{SPRING}}}\noil: {{{oil}}}")
+    assert "'oil.share' is free, but has no influence" in str(found)
+
+
 def test_a_number_on_which_nothing_depends():
     (found,) = weak(
         f"""

@@ -38,7 +38,7 @@ def find_idle_and_confused(topology: Topology, spec: NetworkSpec) -> Iterator[Pr
             "connect it to a node that moves, or remove it",
             "warning",
         )
-    names = {branch.numbers for branch in idle}
+    names = {branch.numbers for branch in idle} | _awake_in_runs(spec)
     for slot, column in zip(slots, table.T, strict=True):
         if slot.path.rpartition(".")[0] not in names and not _is_felt(column):
             yield Problem(
@@ -90,6 +90,15 @@ def searched_slots(spec: NetworkSpec) -> tuple[Slot, ...]:
         for slot in (*own, *bent)
         if slot.value.searched and slot.of is None and not slot.path.startswith(NOT_TRIED)
     )
+
+
+def _awake_in_runs(spec: NetworkSpec) -> set[str]:
+    """Branches with a number that is zero until a run gives it: what acts with it alone shows in runs only."""
+    return {
+        slot.path.rpartition(".")[0]
+        for slot in spec.slots()
+        if slot.of is None and slot.value.number == 0.0 and (slot.value.setting or slot.value.over)
+    }
 
 
 def _is_rigid(branch: Branch) -> bool:
