@@ -34,7 +34,7 @@ SENSOR_KEYS = {
 }
 
 # what a dataset may declare as known and harmless: values at the end of the range, units that differ from the file's
-ACCEPTABLE = ("clipping", "units")
+ACCEPTABLE = ("clipping", "units", "triage")
 
 
 @dataclass(frozen=True)

@@ -163,6 +163,7 @@ def _make_run(declaration: RunDeclaration, step: float, uneven: bool, channels: 
         notes=declaration.notes,
         units={**declaration.units, **{mean_of(each.name): _told(each) for each in declaration.channels}},
         uneven=uneven,
+        accept=declaration.accept,
     )
     for values in (run.time, *run.channels.values()):
         values.flags.writeable = False

@@ -25,6 +25,7 @@ class Run:
     specimen has gone through in the runs before, in SI (`dashpot.data.history`).
     uneven: whether the clock was not, and the samples were laid on the even grid.
     end: the node whose force it is about, where a run with several forces was taken apart.
+    accept: what the dataset says is known and harmless.
 
     Examples:
         >>> run = dp.load_dataset("mount").runs[1]
@@ -52,6 +53,7 @@ class Run:
     units: Mapping[str, str] = field(default_factory=dict)
     uneven: bool = False
     end: str = ""
+    accept: tuple[str, ...] = ()
 
     @property
     def sample_time(self) -> float:

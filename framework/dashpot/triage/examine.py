@@ -64,11 +64,14 @@ def examine(dataset: Dataset) -> Triage:
     measured = [
         run for run in whole if "force" in run.channels and "displacement" in run.channels and run.kind != STEADY
     ]
+    accepted = {run.name for run in measured if "triage" in run.accept}
     copied = duplicate_runs(measured) + [fault for run in measured if (fault := lost_samples(run))]
+    copied = [fault for fault in copied if fault.run not in accepted]
     runs = _without(measured, copied)
     turned, late = work_faults(runs)
+    turned = [fault for fault in turned if fault.run not in accepted]
     runs = _without(runs, turned)
-    scaled = wrong_scales(runs)
+    scaled = [fault for fault in wrong_scales(runs) if fault.run not in accepted]
     runs = _without(runs, scaled)
     faults = [*copied, *turned, *scaled]
     kept = {run.name: run for run in runs} | {run.name: run for run in whole if run not in measured}

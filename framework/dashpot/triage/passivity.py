@@ -51,17 +51,28 @@ def work_faults(runs: Sequence[Run]) -> tuple[list[Fault], list[str]]:
         ]
     if together := _turned_together(bad, sound, works):
         return [*together, *_turned_like(together, runs, works)], []
-    return [_fault_of(run, works[run.name], sound) for run in bad], []
+    return [_fault_of(run, works[run.name], sound) for run in bad], [] if bad else _all_pull(runs, works)
+
+
+def _all_pull(runs: Sequence[Run], works: Mapping[str, CycleWork]) -> list[str]:
+    """A remark where no run is certain to give back work, but all do, and each pulls along with its deflection."""
+    judged = [run for run in runs if run.name in works]
+    if len(judged) < FEWEST_TOGETHER or any(works[run.name].mean >= 0.0 or not _pulls(run) for run in judged):
+        return []
+    return [
+        f"In all {len(judged)} runs with closed cycles the force falls as the deflection grows, and no work is taken "
+        "up: where the signs of force and deflection are opposite, write 'sign: -1' under the force channel of all runs"
+    ]
 
 
 def _turned_together(bad: Sequence[Run], sound: Sequence[Run], works: Mapping[str, CycleWork]) -> list[Fault]:
     """The one fault of most runs: each of them pulls along with its deflection and takes up work if turned round."""
-    if len(bad) < FEWEST_TOGETHER or len(bad) <= len(sound):
+    # beside some, all others need no more evidence than that they do the same, be it within what a delay explains
+    every = all(works[run.name].mean < 0.0 and _by_itself(run, works[run.name]).kind == "polarity" for run in sound)
+    if len(bad) < FEWEST_TOGETHER or not (every or len(bad) > len(sound)):
         return []
     if any(_by_itself(run, works[run.name]).kind != "polarity" for run in bad):
         return []
-    # beside most runs, the others need no more evidence than that they do the same, be it within what a delay explains
-    every = all(works[run.name].mean < 0.0 and _by_itself(run, works[run.name]).kind == "polarity" for run in sound)
     turned = [*bad, *sound] if every else bad
     shares = [-works[run.name].power_factor for run in turned]
     given = "work is given back over closed cycles" if every else f"{len(bad)} of {len(works)} runs give back work"
@@ -250,14 +261,19 @@ def _longest(run: Run, work: CycleWork) -> int:
     return int(0.25 * work.period / run.sample_time)
 
 
+def _pulls(run: Run) -> bool:
+    """Whether a force goes against its deflection, as of a spring whose sign is wrong."""
+    x, force = run.displacement - np.mean(run.displacement), run.force - np.mean(run.force)
+    return float(x @ force) <= 0.0
+
+
 def _by_itself(run: Run, work: CycleWork) -> _Try:
     """What a run is where no other one tells: late where it resists deflection as it stands, else turned round.
 
     A delay of more than a quarter of a cycle is none: the force of a dashpot that is turned round hardly resists.
     """
-    x, force = run.displacement - np.mean(run.displacement), run.force - np.mean(run.force)
     delay = _least_delay(work)
-    if float(x @ force) <= 0.0 or delay > 0.25 * work.period:
+    if _pulls(run) or delay > 0.25 * work.period:
         return _Try(
             "polarity",
             0.0,

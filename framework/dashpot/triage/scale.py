@@ -113,7 +113,8 @@ def _of_group(runs: Sequence[Run], least: float) -> Iterator[Fault]:
     sizes = Sizes.of(moved)
     known = find_agreement([moments_of_run(run, sizes) for run in moved])
     if known is None:
-        yield from _by_sizes(moved)
+        sized = (_size_fault(run, [other for other in moved if other is not run]) for run in moved)
+        yield from (fault for fault in sized if fault)
         return
     inside = [moved[k] for k in known.inside]
     for number, run in enumerate(moved):
@@ -134,7 +135,7 @@ def _fault_of(run: Run, known: Agreement, inside: Sequence[Run], sizes: Sizes, l
         )
     change = change_by_conditions(inside)
     allowed = known.reach + change
-    if gain > 0.0 and likeness >= MOSTLY and abs(math.log(gain)) <= allowed:
+    if gain > 0.0 and likeness >= MOSTLY and abs(math.log(gain)) <= known.reach:
         return None
     force = _force_fault(run, gain, likeness, known, least) or _far_fault(run, gain, likeness, allowed, least)
     # where a force hardly depends on the deflection, as friction, any divisor of this makes it like the others
@@ -144,45 +145,46 @@ def _fault_of(run: Run, known: Agreement, inside: Sequence[Run], sizes: Sizes, l
         # an elastic force in proportion to its deflection shows the one as the other
         nearer = _nearer(run, stroke, inside, "displacement") > _nearer(run, force, inside, "force")
         return stroke if nearer else force
-    unit = force or stroke
-    return unit if unit and unit.factor is not None else _swapped(run, known, sizes) or unit
+    unit = force or stroke or (_size_fault(run, inside) if likeness < MOSTLY else None)
+    if unit and unit.factor is not None:
+        return unit
+    away = abs(math.log(gain)) if gain > 0.0 and likeness >= MOSTLY else math.inf
+    return _swapped(run) if away > allowed and _swaps(run, known, sizes, away / CLEARLY) else unit
 
 
-def _swapped(run: Run, known: Agreement, sizes: Sizes) -> Fault | None:
-    """Force and displacement taken for each other, if the run then is what the others expect, in its size as well."""
-    for seen in swapped_moments(run, sizes):
-        gain, likeness = known.compare(seen)
-        if gain > 0.0 and likeness >= MOSTLY and abs(math.log(gain)) <= known.reach:
-            return Fault(
-                run.name,
-                "swapped_channels",
-                "with its force and displacement taken for each other it agrees with the others, as it is it does not",
-                "Swap the columns of its force and displacement channels",
-            )
-    return None
+def _swaps(run: Run, known: Agreement, sizes: Sizes, nearest: float) -> bool:
+    """Whether a run with force and displacement taken for each other is what the others expect, in its size as well."""
+    seen = [known.compare(each) for each in swapped_moments(run, sizes)]
+    within = min(known.tolerance, nearest)
+    return any(gain > 0.0 and likeness >= MOSTLY and abs(math.log(gain)) <= within for gain, likeness in seen)
 
 
-def _by_sizes(runs: Sequence[Run]) -> Iterator[Fault]:
-    """Factors of 1000 and more where the runs do not foretell each other, as in a hydraulic mount, by sizes alone.
+def _swapped(run: Run) -> Fault:
+    return Fault(
+        run.name,
+        "swapped_channels",
+        "with its force and displacement taken for each other it agrees with the others, as it is it does not",
+        "Swap the columns of its force and displacement channels",
+    )
+
+
+def _size_fault(run: Run, others: Sequence[Run]) -> Fault | None:
+    """A factor of 1000 and more where nothing foretells the course of a force, as in a hydraulic mount: by sizes alone.
 
     Of stiffness, damping and friction that counts which changes least between the others. A run is at fault if a plain
     factor brings it into their range, or beyond it by no more than that is wide, and is clear.
     """
-    if len(runs) <= FEWEST:
-        return
-    table = ratios(runs)
-    for number, run in enumerate(runs):
-        others = np.delete(table, number, axis=1)
-        law = int(np.argmin(np.ptp(others, axis=1)))
-        away = float(table[law, number] - 0.5 * (np.max(others[law]) + np.min(others[law])))
-        near = _near(math.exp(away), FORCES, 1.5 * float(np.ptp(others[law])) + ACCURACY, SETTLED)
-        if not (near and near[0] in PREFIXES and _is_clear(math.exp(away), near[0])):
-            continue
-        force = _unit_of_force(run, math.exp(away), near[:1], 1.0 / near[0])
-        stroke = _unit_of_stroke(run, [1.0 / near[0]])
-        inside = [other for other in runs if other is not run]
-        moved = law < FRICTION and _nearer(run, stroke, inside, "displacement") > _nearer(run, force, inside, "force")
-        yield stroke if moved else force
+    if len(others) < FEWEST:
+        return None
+    known, own = ratios(others), ratios([run])[:, 0]
+    law = int(np.argmin(np.ptp(known, axis=1)))
+    gain = math.exp(own[law] - 0.5 * (np.max(known[law]) + np.min(known[law])))
+    near = _near(gain, FORCES, 1.5 * float(np.ptp(known[law])) + ACCURACY, SETTLED)
+    if not (near and near[0] in PREFIXES and _is_clear(gain, near[0])):
+        return None
+    force, stroke = _unit_of_force(run, gain, near[:1], 1.0 / near[0]), _unit_of_stroke(run, [1.0 / near[0]])
+    moved = law < FRICTION and _nearer(run, stroke, others, "displacement") > _nearer(run, force, others, "force")
+    return stroke if moved else force
 
 
 def _force_fault(run: Run, gain: float, likeness: float, known: Agreement, least: float) -> Fault | None:
@@ -202,7 +204,9 @@ def _far_fault(run: Run, gain: float, likeness: float, allowed: float, least: fl
     if not gain > 0.0 or likeness < MOSTLY or abs(math.log(gain)) <= allowed:
         return None
     near = _near(gain, FORCES, allowed, SETTLED)
-    clear = bool(near) and _is_clear(gain, near[0])
+    nearest = near[0] if near else _near(gain, FORCES, math.inf, SETTLED)[0]
+    clear = _is_clear(gain, nearest)
+    near = near or [nearest] * clear
     if abs(math.log(gain)) < math.log(SETTLED) and not (clear if least > 1.0 else near):
         return None
     return _unit_of_force(run, gain, near, 1.0 / near[0] if clear else None)

@@ -84,7 +84,7 @@ def told(folder: Path, run: str) -> str:
         ("name: b, file: good.npz, decimate: ^2.5", "'decimate': expected a whole number, got the number '2.5'"),
         ("name: b, file: good.npz, decimate: ^0", "'decimate': expected a whole number from 1 to 1000, got 0"),
         ("name: b, file: ^good.npz, decimate: 20", "it has 10 samples, expected at least 16"),
-        ("name: b, file: good.npz, accept: ^[noise]", "'accept': expected some of clipping, units, got 'noise'"),
+        ("name: b, file: good.npz, accept: ^[noise]", "expected some of clipping, units, triage, got 'noise'"),
         ("name: b, file: good.npz, reader: ^npy", "there is no reader 'npy'. did you mean 'npz'?"),
         ("name: b, file: ^dataset.yaml", "no reader takes files ending in '.yaml'. say 'reader: ...'; there are: csv"),
         (
