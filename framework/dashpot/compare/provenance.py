@@ -37,7 +37,7 @@ def warnings_of(setting: Setting, fits: Sequence[FitResult]) -> list[str]:
     if setting.split.reason:
         found.append(f"No errors on unseen runs: {setting.split.reason}.")
     if setting.floor.source != "repeats":
-        found.append("No repeated runs: the noise floor is estimated from the record itself.")
+        found.append("No repeated runs among those that are fitted: the noise floor comes from the records themselves.")
     found += [_at_bound(fit) for fit in fits if fit.at_bound]
     return found + [told for fit in fits for told in _not_told(fit)]
 

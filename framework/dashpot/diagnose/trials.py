@@ -179,11 +179,11 @@ def _asked(scores: Scores, structure: Structure) -> _Asked:
 
 
 def refusals(before: Sequence[Part], after: Sequence[Part], reason: str) -> list[str]:
-    """What to say of each term that could not join: in place of which ones, since others may need what these added."""
-    gone = " and ".join(f"'{term.word}'" for term in before if term not in after)
-    place = f" in place of {gone}" if gone else ""
+    """What to say of each term that could not join; nothing where others went, which it may only have lacked."""
+    if any(term not in after for term in before):
+        return []
     words = [term.word for term in after if term not in before]
-    return [f"'{word}' could not be written into the network{place}: {reason}" for word in words]
+    return [f"'{word}' could not be written into the network: {reason}" for word in words]
 
 
 def scored_by(scores: Scores, odds: Odds) -> Scored:

@@ -32,7 +32,7 @@ def split_runs(dataset: Dataset, seed: int = 0) -> Split:
     Only runs are held out whose motion lies inside what the others cover, at first those whose settings (amplitude,
     preload ...) the others still have, so that the held-out error tests the model and not its extrapolation. One of the
     fastest runs is among them, as much shows only there. Where every run goes beyond the others in some way a single
-    one is held out nevertheless.
+    one is held out nevertheless. The last repeats, which tell the noise floor, stay with the fitted runs.
     """
     if any(run.held_out is not None for run in dataset.runs):
         return _split(dataset, {run.cluster for run in dataset.runs if run.held_out})
@@ -84,7 +84,12 @@ def _split(dataset: Dataset, held_out: set[str]) -> Split:
 def _can_go(dataset: Dataset, held_out: set[str], allowed: Allowed) -> bool:
     kept = [run for run in dataset.runs if run.cluster not in held_out]
     gone = [run for run in dataset.runs if run.cluster in held_out]
-    return any(run.kind not in ALWAYS_TRAIN for run in kept) and allowed(kept, gone)
+    noise_known = _repeated(kept) or not _repeated(gone)
+    return any(run.kind not in ALWAYS_TRAIN for run in kept) and noise_known and allowed(kept, gone)
+
+
+def _repeated(runs: list[Run]) -> bool:
+    return len({run.cluster for run in runs}) < len({run.record for run in runs})
 
 
 def _levels(runs: Iterable[Run]) -> set[tuple[str, float]]:

@@ -13,6 +13,7 @@ from dashpot.data.run import Run
 from dashpot.data.steady import STEADY
 from dashpot.text.problem import Place, Problem
 from dashpot.triage.actuator import actuator_remarks
+from dashpot.triage.declared import moved_otherwise
 from dashpot.triage.dropouts import lost_samples
 from dashpot.triage.duplicates import duplicate_runs
 from dashpot.triage.fault import Fault, corrected
@@ -77,7 +78,7 @@ def examine(dataset: Dataset) -> Triage:
     kept = {run.name: run for run in runs} | {run.name: run for run in whole if run not in measured}
     left = group_repeats(_knowing_better([kept[run.name] for run in whole if run.name in kept], measured, faults))
     sound = {run.name for run in runs}
-    remarks = late + actuator_remarks([run for run in left if run.name in sound])
+    remarks = late + moved_otherwise(measured) + actuator_remarks([run for run in left if run.name in sound])
     if not left:
         left = list(whole)
         remarks.append("No run is without a fault, so all of them are used as they are: see what is said of each")

@@ -93,13 +93,18 @@ def _at(passages: Array, parts: Array) -> Array:
     return np.interp(passages, np.arange(parts.size + 1), np.append(0.0, np.cumsum(parts)))
 
 
+def begin_of_motion(x: Array) -> int:
+    """The sample at which a deflection (n,) first comes to its median."""
+    above = x > np.median(x)
+    return int(np.argmax(above != above[0]))
+
+
 def _passages(x: Array) -> Array:
     """The places, in samples, at which the deflection passes its middle between being well below and well above.
 
     The way from the start of the record to its median, such as one up to a preload, is no part of the motion.
     """
-    above = x > np.median(x)
-    begin = int(np.argmax(above != above[0]))
+    begin = begin_of_motion(x)
     return begin + _passages_within(x[begin:])
 
 

@@ -62,6 +62,14 @@ def test_repeats_are_held_out_together(seed):
     )
 
 
+@pytest.mark.parametrize("seed", range(8))
+def test_the_only_repeats_are_not_held_out(seed):
+    """They tell the noise floor."""
+    runs = [*LADDER, harmonic(f"{LADDER[1].name} again", 1e-3, 2.0, repeats=LADDER[1].name)]
+    held_out = split_runs(Dataset("ladder", tuple(runs)), seed).held_out
+    assert held_out and LADDER[1].name not in held_out
+
+
 def test_where_each_run_goes_beyond_the_others_one_is_held_out_nevertheless():
     runs = (harmonic("far", 20e-3, 0.2), harmonic("fast", 1e-3, 40.0), harmonic("aside", 5e-3, 1.0, preload=0.1))
     aside = runs[2]
