@@ -129,9 +129,8 @@ class Pursuit:
         if not self.leads(name):
             return self.probability(name, unexplained, grown)
         known = set(self.best.model.names)
-        return self._share(lambda names: name in names or bool(set(names) - known)) * self._own(
-            name, unexplained, grown
-        )
+        there = self._share(lambda names: name in names or bool(set(names) - known))
+        return there * self._own(name, unexplained, grown)
 
     def leads(self, name: tuple[str, str]) -> bool:
         """Whether no other cause stands in the place of one in more draws than it does itself."""
