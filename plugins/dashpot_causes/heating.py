@@ -13,7 +13,8 @@ from dashpot.contract.cause import Atom, Cause, Suspect, View, added_branch, bra
 from dashpot.model.network import NetworkSpec
 from dashpot.model.patch import add_branch
 from dashpot_causes.session import MOVED, ORDER, WORKED, kept_of_runs_before, left_of_runs_before, order_of, room_of
-from dashpot_causes.setting_dependence import Setting, changed, has_curved_spring, numbers_of, stiffness_over
+from dashpot_causes.setting_dependence import changed, has_curved_spring, numbers_of, stiffness_over
+from dashpot_causes.settings import Setting
 
 Array = NDArray[np.float64]
 UNITS = {"stiffness": "N/m", "damping": "N*s/m", "power": "W", "time": "s", "ratio": "1", "share": "1"}
