@@ -33,6 +33,7 @@ def test_clear_files_become_a_dataset_that_check_finds_good(call, folder):
     text = (folder / "dataset.yaml").read_text(encoding="utf-8")
     assert "    force: {column: Kraft, unit: N}\n" in text and "   # CONFIRM" not in text
     assert "# - CONFIRM the kinds and settings of the runs" in text
+    assert "# - CONFIRM the order of the runs" in text
     assert "settings: {amplitude: 4 mm, preload: 12 mm, start: 1 Hz, stop: 17 Hz}" in text
     assert call("check", folder / "dataset.yaml") == (0, f"{folder / 'dataset.yaml'}: good\n", "")
 

@@ -342,4 +342,8 @@ def _confirm(
             about.setdefault(remark, []).append(run.name)
     if runs:
         about["the kinds and settings of the runs: they were derived from the motion"] = [run.name for run in runs]
+    if len(runs) > 1:
+        about["the order of the runs: it is that of the files; a diagnosis takes it for the order of the tests"] = [
+            run.name for run in runs
+        ]
     return {remark: tuple(names) for remark, names in about.items()}
