@@ -107,23 +107,12 @@ class Findings:
 
     def probability(self, name: tuple[str, str]) -> float:
         """How sure a cause is, beside the structure that stays unexplained."""
-        return self.pursuit.probability(name, self.unexplained, self._grown.get(name, np.inf))
+        return self.pursuit.probability(name, self.unexplained)
 
     def presence(self, term: Term) -> float:
         """How sure it is that something is in the place of a cause; of a fault of the measurement, that it is this."""
         found = self.pursuit.probability if term.cause.kind == "measurement" else self.pursuit.presence
-        return found(term.name, self.unexplained, self._grown.get(term.name, np.inf))
-
-    @cached_property
-    def _grown(self) -> dict[tuple[str, str], float]:
-        """By what share the square of the residual on training runs grows in the final fit without each cause."""
-        square = self._square(self.final)
-        return {one.name: max(self._square(one.network) / square - 1.0, 0.0) for one in self.removals}
-
-    def _square(self, network: NetworkSpec) -> float:
-        """The mean over training runs, as they were corrected, of the mean square of the residual in N^2."""
-        found, runs = self.residuals(network, self.after_setting), self.setting.split.train
-        return float(np.mean([np.mean(found[run][self.after_setting.scored[run].first :] ** 2) for run in runs]))
+        return found(term.name, self.unexplained)
 
     @cached_property
     def unexplained(self) -> float:

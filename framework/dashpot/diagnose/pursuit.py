@@ -116,21 +116,19 @@ class Pursuit:
         taken = np.argmin([self.best.drawn(self.weights), *scores], axis=0)
         return Counter([self.best, *found][number].model.names for number in taken)
 
-    def probability(self, name: tuple[str, str], unexplained: float = 0.0, grown: float = np.inf) -> float:
+    def probability(self, name: tuple[str, str], unexplained: float = 0.0) -> float:
         """How sure a cause is: the share of draws in which the best structure has it.
 
         Times its own part of what tells it from others and of what stays ``unexplained``, which might decide otherwise.
-        What tells it is no more than the share by which the square has ``grown`` in the final fit without it.
         """
-        return self._share(lambda names: name in names) * self._own(name, unexplained, grown)
+        return self._share(lambda names: name in names) * self._own(name, unexplained)
 
-    def presence(self, name: tuple[str, str], unexplained: float = 0.0, grown: float = np.inf) -> float:
+    def presence(self, name: tuple[str, str], unexplained: float = 0.0) -> float:
         """The same where draws count in which another cause stands in its place, if it leads: something is there."""
         if not self.leads(name):
-            return self.probability(name, unexplained, grown)
+            return self.probability(name, unexplained)
         known = set(self.best.model.names)
-        there = self._share(lambda names: name in names or bool(set(names) - known))
-        return there * self._own(name, unexplained, grown)
+        return self._share(lambda names: name in names or bool(set(names) - known)) * self._own(name, unexplained)
 
     def leads(self, name: tuple[str, str]) -> bool:
         """Whether no other cause stands in the place of one in more draws than it does itself."""
@@ -160,12 +158,12 @@ class Pursuit:
         """The share of draws whose structure has names of which something holds."""
         return sum(count for names, count in self.winners.items() if held(names)) / self.winners.total()
 
-    def _own(self, name: tuple[str, str], unexplained: float, grown: float) -> float:
+    def _own(self, name: tuple[str, str], unexplained: float) -> float:
         """What tells a cause from all that might be in its place, over that and what stays unexplained."""
         alone = self.explained_alone(name)
         if unexplained == 0.0:
             return float(alone > 0.0 or self.without_cause(name) is None)
-        return _decided(min([grown, alone, *map(self._behind, self._without_name(name))]), unexplained)
+        return _decided(min([alone, *map(self._behind, self._without_name(name))]), unexplained)
 
     def _without_name(self, name: tuple[str, str]) -> list[Scored]:
         """The structures without a cause that have others in its place, and are as simple: no less likely beforehand.

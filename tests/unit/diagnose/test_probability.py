@@ -239,13 +239,3 @@ def test_repeats_that_differ_by_more_than_a_general_model_leaves_hold_more_than_
         setting=SimpleNamespace(floor=SimpleNamespace(value=repeats)), explainable=SimpleNamespace(left_out=general)
     )
     assert Diagnosis._floor.fget(found) == floor
-
-
-def test_a_cause_is_no_surer_than_the_final_fit_without_it_shows():
-    """A refit that is cut short leaves more than it has to: what the final fit makes up for does not tell the cause."""
-    found = pursuit(scored(0.0, "a"), [scored(200.0)])
-    sure = found.probability(("a", ""), 0.5)
-    assert found.probability(("a", ""), 0.5, 0.25) == pytest.approx(0.25 / 0.75)
-    assert found.presence(("a", ""), 0.5, 0.25) == pytest.approx(0.25 / 0.75)
-    assert found.probability(("a", ""), 0.5, 1e6) == sure > 0.9
-    assert found.probability(("a", ""), 0.0, 0.25) == 1.0
