@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from dashpot.contract.cause import Atom, Cause, Suspect, View, added_branch, branch_lines, free_name
 from dashpot.model.network import NetworkSpec
 from dashpot.model.patch import add_branch
-from dashpot_causes.session import MOVED, ORDER, WORKED, kept_of_runs_before, left_of_runs_before, order_of, room_of
+from dashpot_causes.session import MOVED, ORDER, kept_of_runs_before, left_of_runs_before, order_of, room_of
 from dashpot_causes.setting_dependence import changed, has_curved_spring, numbers_of, stiffness_over
 from dashpot_causes.settings import Setting
 
@@ -59,8 +59,8 @@ class Heating(Cause):
         ]
         for share in SPRINGS:
             yield _heated(anew, share, band)
-            if any(view.settings(run).get(WORKED, 0.0) > 0.0 for run in view.runs):
-                yield _still_warm(view, warm, share, band)
+            if any(view.settings(run).get(MOVED, 0.0) > 0.0 for run in view.runs):
+                yield _still_warm(warm, share, band)
         yield from _from_run_to_run(view, network)
 
 
@@ -84,13 +84,10 @@ def _values(damping: float, place: Mapping[str, float], stiffness: float) -> dic
     return found | ({"stiffness": damping * stiffness} if stiffness else {})
 
 
-def _still_warm(view: View, places: Sequence[Mapping[str, float]], share: float, band: float) -> Suspect:
-    """The same with what is kept of the heat of the runs before: as a column that of its own damping, as it was cold,
-    in the file a share of the work of the specimen.
-    """
+def _still_warm(places: Sequence[Mapping[str, float]], share: float, band: float) -> Suspect:
+    """The same with what is kept of the heat of the runs before."""
     cold, stiffness = _heated(places, share, band), share * band
     ends = room_of([place["time"] for place in places])
-    squares, works = (sum(view.settings(run).get(word, 0.0) for run in view.runs) for word in (MOVED, WORKED))
 
     def columns(view: View, run: str) -> Array:
         settings = view.settings(run)
@@ -104,9 +101,9 @@ def _still_warm(view: View, places: Sequence[Mapping[str, float]], share: float,
     def extend(text: str, atoms: Sequence[Atom]) -> str:
         damping, number = atoms[0]
         place = places[int(number)]
-        values = _values(damping, place, stiffness) | {"share": place["kept"] * min(damping * squares / works, 1.0)}
+        values = _values(damping, place, stiffness) | {"share": place["kept"]}
         lines = branch_lines(free_name(text, "heating"), "self_heating", values, UNITS, bounds={"time": ends})
-        return add_branch(text, f"{lines}\n  before: {kept_of_runs_before(WORKED, 'J', place['kept'])}")
+        return add_branch(text, f"{lines}\n  before: {kept_of_runs_before(MOVED, 'm^2/s', place['kept'])}")
 
     form = f"{cold.form}, from run to run"
     return replace(cold, form=form, columns=columns, extend=extend, unknowns=cold.unknowns + 2)

@@ -13,7 +13,6 @@ from dashpot.data.history import is_history, runs_before
 ORDER = "order"
 REACHED = "reached"  # how far the specimen was deflected in the runs before
 MOVED = "moved"  # the integral of the squared velocity over the run before
-WORKED = "worked"  # the work that the specimen took up in the run before
 FEWEST = 4  # runs one after the other: two or three lie on a line by chance
 FORETOLD = 0.9  # of the variance of the order: what follows it may as well follow the stroke, the speed or a setting
 ROOM = 10.0  # of the times of cooling beyond those that are tried

@@ -22,10 +22,11 @@ class SelfHeating(Element):
     heat goes with the dissipated power and not with the square of the velocity, as in `softening`, so that it does not
     run away.
 
-    Every record begins at the temperature of its surroundings, or with w = share before/(power time), what is left of
-    the runs before. `before: {fixed: 0 J, over: {setting: worked, kept: {start: 0.5}}}` is the work of the run before,
-    kept of that of the run before that one, kept^2 of the next, and so on, as of a specimen that cools by the same
-    share from each run to the next. What is not in `share` went into other branches, or has cooled since.
+    Every record begins at the temperature of its surroundings, or warm of the runs before: w = log2(1 + log(2) share
+    damping before/(power time)), which is what a dashpot has gained that moved by `before`, the integral of its squared
+    velocity, and took up less as it got warm. `before: {fixed: 0 m^2/s, over: {setting: moved, kept: {start: 0.5}}}` is
+    that of the run before, kept of that of the run before that one, kept^2 of the next, and so on, as of a specimen
+    that cools by the same share from each run to the next. What is not in `share` has cooled since.
 
     The heat of a step is that of its mean squared velocity, with the damping in the middle of the step: second order.
     Not passive by itself, as a spring that cools under load takes up energy as heat.
@@ -50,16 +51,16 @@ class SelfHeating(Element):
         default=1.0,
     )
     before = Parameter(
-        "J",
-        "work of the run before, and what is kept of that of earlier ones",
-        bounds=(0.0, 1e9),
+        "m^2/s",
+        "squared velocity, over the time of the run before, and what is kept of earlier ones",
+        bounds=(0.0, 1e6),
         scale="linear",
         symbol="E_1",
         default=0.0,
     )
     share = Parameter(
         "1",
-        "share of that work that is still heat of this dashpot",
+        "share of the heat of it that is still there",
         bounds=(0.0, 1.0),
         scale="linear",
         symbol="s",
@@ -88,4 +89,6 @@ class SelfHeating(Element):
 
 
 def _whole(warmth: Any, cooled: Any, p: Any) -> Any:
-    return warmth + p.share * p.before / (p.power * p.time) * (1.0 - cooled)
+    # the heat of a motion without cooling: (2^w)' = log(2) damping v^2/(power time)
+    left = np.log(1.0 + LN2 * p.share * p.damping * p.before / (p.power * p.time)) / LN2
+    return warmth + left * (1.0 - cooled)

@@ -101,15 +101,33 @@ def test_heat_is_carried_over_a_rest_into_the_next_run():
     warm = integrate(rate, [0.0], time)[0][-1]
     still = solve_ivp(lambda t, w: [-w[0] / cooling], (0.0, rest), [warm], **EXACT).y[0, -1]
     warmth = integrate(rate, [still], time)[0]
-    # of the work of the first run, by its own force, a share of it in the spring and 1 in 4 elsewhere
-    work = float(np.sum(0.5 * (first[1:] + first[:-1]) * np.diff(place(time)))) / 0.75
-    left = still * power * cooling / (0.75 * work)
-    assert 0.2 < left < 0.8
-    found = march("self_heating", dt, 8.0, **numbers, before=left * work, share=0.75)[1]
+    moved = float(np.sum(np.gradient(place(time)) ** 2)) / dt
+    left = np.expm1(np.log(2.0) * still) / np.log(2.0) * power * cooling / (damping * moved)
+    assert 0.1 < left < 0.8
+    found = march("self_heating", dt, 8.0, **numbers, before=moved, share=left)[1]
     expected = 2e4 * place(time) * 2.0 ** (-0.4 * warmth) + damping * speed(time) * 2.0**-warmth
     # at the first sample a step has passed
     assert relative(found[1:], expected[1:]) < 1e-4
     assert relative(first, expected) > 0.05
+
+
+def test_without_cooling_a_run_begins_with_the_heat_of_the_motion_before():
+    """The temperature goes on from run to run, as integrated over both, where nothing has cooled."""
+    damping, heat, cooling, dt = 300.0, 0.4, 1e5, 5e-4
+    numbers = {"stiffness": 2e4, "damping": damping, "power": heat / cooling, "time": cooling, "ratio": 0.4}
+    time, first = march("self_heating", dt, 8.0, **numbers)
+
+    def rate(t, w):
+        return [damping * speed(t) ** 2 * 2.0 ** -w[0] / heat]
+
+    warm = integrate(rate, [0.0], time)[0]
+    again = integrate(rate, [warm[-1]], time)[0]
+    assert warm[-1] > 1.5
+    expected = 2e4 * place(time) * 2.0 ** (-0.4 * again) + damping * speed(time) * 2.0**-again
+    moved = float(np.sum(np.gradient(place(time)) ** 2)) / dt
+    found = march("self_heating", dt, 8.0, **numbers, before=moved, share=1.0)[1]
+    assert relative(found[1:], expected[1:]) < 1e-3
+    assert relative(first, expected) > 0.2
 
 
 def test_a_rattling_mass_flies_rings_and_flies_again(state):

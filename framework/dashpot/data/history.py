@@ -10,50 +10,45 @@ import numpy as np
 from dashpot.data.run import Run
 
 # settings that every run of a dataset with one displacement has: the largest deflection before it in m, and of the last
-# run before it the integral of the squared velocity in m^2/s and the work that the specimen took up in J
-REACHED, MOVED, WORKED = "reached", "moved", "worked"
-NOTHING = {REACHED: 0.0, MOVED: 0.0, WORKED: 0.0}
-EACH = (MOVED, WORKED)  # those that are told of every run before: `worked 2` is that of the last but one
+# run before it the integral of the squared velocity in m^2/s. Both tell of motions, so that no measured force, as one
+# of a held-out run, ever becomes an input of a simulation
+REACHED, MOVED = "reached", "moved"
+NOTHING = {REACHED: 0.0, MOVED: 0.0}
 
 
 def with_history(made: Iterable[tuple[Run, bool]]) -> Iterator[Run]:
-    """The runs that count, of (run, whether it counts), knowing how far, how fast and by what work the specimen was
-    moved before.
+    """The runs that count, of (run, whether it counts), knowing how far and how fast the specimen was moved before.
 
-    What a run itself states as the setting ``reached`` counts from there on. A run without a displacement is none; one
-    without a force has taken up no work.
+    What a run itself states as the setting ``reached`` counts from there on. A run without a displacement is none.
     """
-    reached = 0.0
-    before: dict[str, list[float]] = {word: [] for word in EACH}
+    reached, moved = 0.0, list[float]()
     for run, counts in made:
         reached = max(reached, run.settings.get(REACHED, 0.0))
         if counts:
-            each = {name: value for word in EACH for name, value in _named(word, before[word])}
+            each = {name_of(MOVED, earlier): value for earlier, value in enumerate(reversed(moved))}
             yield replace(run, history={REACHED: reached, **each})
         if "displacement" in run.channels:
             reached = max(reached, float(np.max(np.abs(run.displacement))))
-            before[MOVED].append(float(np.sum(np.gradient(run.displacement) ** 2)) / run.sample_time)
-            before[WORKED].append(_work(run))
+            moved.append(float(np.sum(np.gradient(run.displacement) ** 2)) / run.sample_time)
 
 
 def runs_before(settings: Mapping[str, float], word: str) -> list[float]:
-    """What a setting of `EACH` was in the runs before, the last one first."""
+    """What a setting that is told of every run was in the runs before, the last one first: `moved 2` is the last but
+    one.
+    """
     found: list[float] = []
     while (name := name_of(word, len(found))) in settings:
         found.append(settings[name])
     return found
 
 
-def knowing_better(run: Run, wrong: Run, force: float, displacement: float) -> Run:
-    """A run that knows of a wrong one before it how much it moved and worked with its channels times these factors."""
-    factors = {MOVED: displacement**2, WORKED: abs(force * displacement)}
-    earlier = {word: len(runs_before(run.history, word)) - len(runs_before(wrong.history, word)) - 1 for word in EACH}
-    better = {
-        name: run.history[name] * factors[word]
-        for word in EACH
-        if earlier[word] >= 0 and (name := name_of(word, earlier[word])) in run.history
-    }
-    return replace(run, history={**run.history, **better})
+def knowing_better(run: Run, wrong: Run, displacement: float) -> Run:
+    """A run that knows of a wrong one before it how much it moved with its displacement times this factor."""
+    earlier = len(runs_before(run.history, MOVED)) - len(runs_before(wrong.history, MOVED)) - 1
+    name = name_of(MOVED, earlier)
+    if earlier < 0 or name not in run.history:
+        return run
+    return replace(run, history={**run.history, name: run.history[name] * displacement**2})
 
 
 def name_of(word: str, earlier: int) -> str:
@@ -64,21 +59,4 @@ def name_of(word: str, earlier: int) -> str:
 def is_history(name: str) -> bool:
     """Whether a setting tells of the runs before."""
     word, _, number = name.partition(" ")
-    return word in NOTHING and (not number or (word in EACH and number.isdecimal()))
-
-
-def _named(word: str, values: list[float]) -> Iterator[tuple[str, float]]:
-    for earlier, value in enumerate(reversed(values)):
-        yield name_of(word, earlier), value
-
-
-def _work(run: Run) -> float:
-    """The work in J that a run has turned into heat, by its size, as the sign of a channel may be wrong.
-
-    What a path that does not close has left in the spring is taken off along a straight line back to its beginning.
-    """
-    if "force" not in run.channels:
-        return 0.0
-    force, path = run.force, run.displacement
-    done = float(np.sum(0.5 * (force[1:] + force[:-1]) * np.diff(path)))
-    return abs(done - 0.5 * float((force[0] + force[-1]) * (path[-1] - path[0])))
+    return word in NOTHING and (not number or (word == MOVED and number.isdecimal()))

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.data.excitation import ORDER
-from dashpot.data.history import EACH, NOTHING, name_of, runs_before
+from dashpot.data.history import MOVED, NOTHING, name_of, runs_before
 from dashpot.kernel.following import follows, keys_of, moved, told_to
 from dashpot.model.network import NetworkSpec, Over, Slot, Value
 from dashpot.text.problem import InputError, Place, Problem
@@ -106,7 +106,7 @@ def _missing(spec: NetworkSpec, settings: Mapping[str, float], run: str) -> Iter
     told = {ORDER, *NOTHING}
     for slot in spec.slots():
         over = slot.value.over
-        if over and over.way == "kept" and (over.channel or over.word not in EACH):
+        if over and over.way == "kept" and (over.channel or over.word != MOVED):
             yield _not_of_the_runs_before(slot, over)
         elif over and told.isdisjoint(keys_of(over)) and settings.keys().isdisjoint(keys_of(over)):
             told.add(keys_of(over)[0])
@@ -117,7 +117,7 @@ def _not_of_the_runs_before(slot: Slot, over: Over) -> Problem:
     return Problem(
         slot.value.node.place if slot.value.node else Place(),
         f"'{slot.path}' over '{over.word}': expected a setting that adds up over the runs before",
-        f"write one of {', '.join(EACH)}, or 'slope' in place of 'kept'",
+        f"write '{MOVED}', or 'slope' in place of 'kept'",
     )
 
 

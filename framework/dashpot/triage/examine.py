@@ -77,8 +77,8 @@ def examine(dataset: Dataset) -> Triage:
     faults = [*copied, *turned, *scaled]
     kept = {run.name: run for run in runs} | {run.name: run for run in whole if run not in measured}
     left = group_repeats(_knowing_better([kept[run.name] for run in whole if run.name in kept], measured, faults))
-    sound = {run.name for run in runs}
-    remarks = late + moved_otherwise(measured) + actuator_remarks([run for run in left if run.name in sound])
+    sound = [run for run in left if run.name in {each.name for each in runs}]
+    remarks = late + moved_otherwise(sound) + actuator_remarks(sound)
     if not left:
         left = list(whole)
         remarks.append("No run is without a fault, so all of them are used as they are: see what is said of each")
@@ -89,9 +89,8 @@ def _knowing_better(runs: Sequence[Run], measured: Sequence[Run], faults: Sequen
     """The runs with what they know of those before them put right where a channel of these was corrected."""
     left, by_name = list(runs), {run.name: run for run in measured}
     for fault in faults:
-        if fault.factor is not None:
-            factors = [fault.factor if fault.channel == channel else 1.0 for channel in ("force", "displacement")]
-            left = [knowing_better(run, by_name[fault.run], *factors) for run in left]
+        if fault.factor is not None and fault.channel == "displacement":
+            left = [knowing_better(run, by_name[fault.run], fault.factor) for run in left]
     return left
 
 

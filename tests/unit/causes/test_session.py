@@ -58,29 +58,26 @@ def test_where_strokes_foretell_the_order_nothing_is_said_of_it(view):
     assert not [form for form in suspects("heating", view) if "run to run" in form]
 
 
-class Worked(Session):
-    """The same specimen, and what its dashpot alone would have taken up before each run."""
-
-    DAMPING = 250.0
+class Moved(Session):
+    """The same specimen, and how fast it was moved before each run."""
 
     def settings(self, run):
         before = [self.drives[f"r{k}"].velocity for k in range(self.orders[run])]
         squares = [STEP * float(np.sum(speed**2)) for speed in reversed(before)]
         told = {name_of("moved", k): square for k, square in enumerate(squares)}
-        told |= {name_of("worked", k): self.DAMPING * square for k, square in enumerate(squares)}
-        return {**super().settings(run), "moved": 0.0, "worked": 0.0, **told}
+        return {**super().settings(run), "moved": 0.0, **told}
 
 
 @pytest.mark.parametrize(
     ("word", "form", "strength"),
     [
-        ("heating", "a dashpot that warms up, from run to run", Worked.DAMPING),
-        ("heating", "a dashpot and a spring that warm up, from run to run", Worked.DAMPING),
+        ("heating", "a dashpot that warms up, from run to run", 250.0),
+        ("heating", "a dashpot and a spring that warm up, from run to run", 250.0),
         ("softening", "softening from run to run", 4e4),
     ],
 )
 def test_heat_of_the_runs_before_is_written_as_its_column_shows_it(word, form, strength):
-    view = Worked()
+    view = Moved()
     suspect = suspects(word, view)[form]
     place = len(suspect.grid) // 2
     spec = parse_network(suspect.extend(NETWORK, [(strength, suspect.grid[place])]), REGISTRY.elements)

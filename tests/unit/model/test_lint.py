@@ -148,7 +148,7 @@ def test_a_branch_on_which_nothing_depends():
 
 @pytest.mark.parametrize(
     "before",
-    ["{setting: worked, value: 0 J}", "{fixed: 0 J, over: {setting: worked, kept: {start: 0.5}}}"],
+    ["{setting: moved, value: 0 m^2/s}", "{fixed: 0 m^2/s, over: {setting: moved, kept: {start: 0.5}}}"],
 )
 def test_a_number_that_acts_beside_what_a_run_gives_is_not_complained_of(before):
     """What it says of the runs before shows in no motion by itself; with nothing before it says nothing at all."""

@@ -30,7 +30,7 @@ LINE = "{start: 30 N, over: {setting: pressure, at: 2 bar, slope: {start: 5 N/ba
 RATE = "{fixed: 30 N, over: {channel: temperature, at: 20 degC, rate: -1 %/K}}"
 TABLE = "{start: 30 N, over: {setting: current, at: [0 A, 1 A, 2 A], factor: [1, {start: 2}, {start: 2.5}]}}"
 
-KEPT = "{start: 30 N, over: {setting: worked, kept: {start: 0.4}}}"
+KEPT = "{start: 30 N, over: {setting: moved, kept: {start: 0.4}}}"
 WLF = "{start: 30 N, over: {setting: temperature, at: 20 degC, wlf: [17.44, {start: 51.6 K}]}}"
 ARRHENIUS = "{start: 30 N, over: {channel: temperature, at: 20 degC, arrhenius: {start: 5000 K}}}"
 
@@ -67,8 +67,8 @@ def test_factors_between_places():
     [
         ("{start: 30 N, over: {setting: p, slope: 1 N/bar}}", "lacks 'at'. give the setting"),
         ("{start: 30 N, over: {setting: p, at: 2 bar}}", "lacks one of slope, rate, factor, wlf, arrhenius, kept"),
-        ("{start: 30 N, over: {setting: worked, at: 0 J, kept: 0.5}}", "has no key 'at'"),
-        ("{start: 30 N, over: {setting: worked, kept: 1.5}}", "expected 0 to 1"),
+        ("{start: 30 N, over: {setting: moved, at: 0 J, kept: 0.5}}", "has no key 'at'"),
+        ("{start: 30 N, over: {setting: moved, kept: 1.5}}", "expected 0 to 1"),
         ("{start: 30 N, over: {setting: T, at: 20 degC, wlf: 17}}", "expected [C1, C2], got"),
         ("{start: 30 N, over: {setting: T, at: 20 degC, wlf: [17, 50 mm]}}", "expected a quantity in K, got 'mm'"),
         ("{start: 30 N, over: {setting: p, at: 2 bar, arrhenius: 5000 K}}", "expected a temperature, as 'arrhenius'"),
