@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any, TypeVar
 from weakref import ref
 
 import numpy as np
@@ -20,6 +21,7 @@ from dashpot_causes.settings import Setting, settings_of
 
 Array = NDArray[np.float64]
 NUDGE = 1e-3
+Made = TypeVar("Made")
 RUNS_KEPT = 2  # all forms ask for the same changes of a run, one after the other; runs may be seen at once
 
 
@@ -57,14 +59,14 @@ class SettingDependence(Cause):
 
 
 class Changes:
-    """What the numbers of a branch with ``keys`` do to the force, as kept for the last runs of a view."""
+    """What the numbers of a branch with ``keys`` do to the force."""
 
     def __init__(self, network: NetworkSpec, branch: Branch) -> None:
         self._network, self._branch = network, branch
         self._values = {**{key: curve.values[0] for key, curve in branch.curves.items()}, **branch.values}
         self.keys = [key for key, value in self._values.items() if self._may_depend(key, value)]
         self._view: Callable[[], View | None] = lambda: None
-        self._kept: dict[str, Mapping[str, Array]] = {}
+        self._kept: dict[tuple[str, str], Any] = {}
 
     def numbers(self) -> Iterator[Number]:
         """Each of them."""
@@ -75,13 +77,14 @@ class Changes:
         dependence is told.
         """
         memory = bool(self._branch.element.declares.states)
-        if (memory and np.ndim(share)) or any(np.ndim(number) for number in self._along(view, run).values()):
+        known = self._of_run(self._along, view, run)
+        if (memory and np.ndim(share)) or any(np.ndim(number) for number in known.values()):
             return self._moved(view, run, key, share)
-        return share * self._whole(view, run)[key]
+        return share * self._of_run(self._columns, view, run)[key]
 
     def _moved(self, view: View, run: str, key: str, share: float | Array) -> Array:
         """The derivative of the force where numbers move along the run: a memory knows how they have moved."""
-        known, value = self._along(view, run), self._values[key]
+        known, value = self._of_run(self._along, view, run), self._values[key]
         ways = (side * NUDGE * abs(value.number) * share for side in (-1.0, 1.0))
         ends = [np.clip(known[key] + way, *value.sensible) for way in ways]
         less, more = view.respond(run, self._branch.element.word, [{**known, key: end} for end in ends])
@@ -97,14 +100,15 @@ class Changes:
                 found[key] = moved(value.over, value.number, numbers, channels[value.over.word], value.sensible)
         return found
 
-    def _whole(self, view: View, run: str) -> Mapping[str, Array]:
-        """The change of the force (n,) with each, when it changes by all of the size at which a dependence is told."""
+    def _of_run(self, make: Callable[[View, str], Made], view: View, run: str) -> Made:
+        """What is made of a run, as kept for the last ones of a view."""
         if self._view() is not view:
             self._view, self._kept = ref(view), {}
-        found = self._kept.get(run)
+        key = make.__name__, run
+        found = self._kept.get(key)
         if found is None:
-            found = self._columns(view, run)
-            self._kept = dict([*self._kept.items(), (run, found)][-RUNS_KEPT:])
+            found = make(view, run)
+            self._kept = dict([*self._kept.items(), (key, found)][-2 * RUNS_KEPT :])
         return found
 
     def _may_depend(self, key: str, value: Value) -> bool:
@@ -112,6 +116,7 @@ class Changes:
         return bool(found) and (value.over is not None or _stands(self._network, self._branch, key))
 
     def _columns(self, view: View, run: str) -> Mapping[str, Array]:
+        """The change of the force (n,) with each, when it changes by all of the size at which a dependence is told."""
         known = self._in(view.settings(run))
         ends = {key: self._ends(key, known[key]) for key in self.keys}
         sets = [{**known, key: end} for key in self.keys for end in ends[key]]

@@ -5,14 +5,25 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
-from functools import cached_property
+from functools import cache, cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.diagnose.candidate import Candidate
 from dashpot.diagnose.table_rows import shown
-from dashpot.diagnose.term import Given, Model, Part, Term, extended, given_branches, inherited, numbers_of, reduced
+from dashpot.diagnose.term import (
+    Given,
+    Model,
+    Part,
+    Term,
+    alone,
+    extended,
+    given_branches,
+    inherited,
+    numbers_of,
+    reduced,
+)
 from dashpot.diagnose.view import ModelView
 from dashpot.diagnose.whitening import Noise
 from dashpot.fit.coordinates import search_coordinates, with_point
@@ -152,14 +163,13 @@ class Refitter:
 
     def term_forces(self, model: Model) -> list[dict[str, Array]]:
         """For each term what it adds to the force (n,) by run, all other numbers as they are."""
-        if not model.terms:
-            return []
-        whole = self.forces(model.fitted)
-        found = []
-        for term in model.terms:
-            rest = [other for other in model.terms if other is not term]
-            other = self.forces(self.without(model, rest))
-            found.append({run: whole[run] - other[run] for run in whole})
+        whole, found = cache(lambda: self.forces(model.fitted)), []
+        for number, term in enumerate(model.terms):
+            if (own := alone(model, number)) is not None:
+                found.append(self.forces(own))
+                continue
+            rest = self.forces(self.without(model, [other for other in model.terms if other is not term]))
+            found.append({run: force - rest[run] for run, force in whole().items()})
         return found
 
     def without(self, model: Model, terms: Sequence[Part]) -> NetworkSpec:

@@ -15,7 +15,7 @@ from dashpot.fit.ranges import Sizes, with_ranges
 from dashpot.fit.refine import Outcome
 from dashpot.model.element import Element
 from dashpot.model.expression import parse_expression
-from dashpot.model.network import Branch, NetworkSpec
+from dashpot.model.network import Branch, Group, NetworkSpec, branch_slots
 from dashpot.model.patch import remove_branch
 from dashpot.model.reading import build_network
 from dashpot.model.sites import Site
@@ -196,6 +196,38 @@ def first_model(declared: NetworkSpec, fitted: NetworkSpec) -> Model:
     coordinates, terms = search_coordinates(fitted), given_branches(declared)
     owned = tuple(numbers_of(declared, one) for one in terms)
     return Model(declared, terms, declared, owned, fitted, coordinates, coordinates.start)
+
+
+def alone(model: Model, number: int) -> NetworkSpec | None:
+    """The branches of a term as a network of their own, where these are all that goes with it, in parallel to the rest;
+    else None.
+    """
+    network, term = model.fitted, model.terms[number]
+    names = _branches(model.owned[number])
+    before = {one.name for one in model.base.root.members} if isinstance(term, Term) else set()
+    members = tuple(one for one in network.root.members if isinstance(one, Branch) and one.name in names - before)
+    beside = network.joints or network.measurement or network.root.kind != "parallel"
+    # a dependence of numbers here and elsewhere would go as a whole
+    wider = (found for owned in model.owned if names & (found := _branches(owned)) and not found <= names)
+    if (
+        beside
+        or len(members) < len(names)
+        or any(wider)
+        or not all(_is_own(one, model.owned[number]) for one in members)
+    ):
+        return None
+    return NetworkSpec(term.word, Group("", "parallel", members))
+
+
+def _branches(paths: Sequence[str]) -> set[str]:
+    """The branches in which numbers are, by their paths."""
+    return {path.partition(".")[0] for path in paths}
+
+
+def _is_own(branch: Branch, owned: Sequence[str]) -> bool:
+    """Whether all numbers of a branch are among those owned, but for what dependences bring, and none is bound."""
+    bound = branch.shares or any(slot.value.expression for slot in branch_slots(branch))
+    return not bound and all(slot.path in owned for slot in branch_slots(branch))
 
 
 def given_branches(network: NetworkSpec) -> tuple[Given, ...]:

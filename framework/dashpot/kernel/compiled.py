@@ -62,7 +62,7 @@ class Compiled(ABC, Generic[Prepared]):
     def observation(self, values: Array, excitation: Excitation | None = None) -> Observation:
         """How the load cells see each lane in a run; gain and offset may follow channels of it, sample by sample."""
         lanes = np.atleast_2d(values)
-        if excitation is None:
+        if excitation is None or not self.spec.measurement:
             return read_observation(self.paths, lanes)
         seen = read_observation(self.paths, with_settings(self.spec, lanes, excitation.settings))
         return replace(seen, **dict(self._moving_channel(lanes, excitation))) if excitation.channels else seen

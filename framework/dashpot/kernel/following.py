@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 from collections.abc import Hashable, Iterable, Mapping, Sequence
 from dataclasses import replace
+from functools import lru_cache
 from typing import Any, Literal
 
 import numpy as np
@@ -51,6 +52,8 @@ def moved(over: Over, base: Any, numbers: Sequence[Any], seen: Any, sensible: tu
 
 
 def _moved(over: Over, base: Any, numbers: Sequence[Any], seen: Any) -> Any:
+    if over.way == "factor" and isinstance(seen, float):
+        return base * (1.0 + sum((numbers[place] - 1.0) * share for place, share in _near(over.at, seen)))
     known = np.equal(seen, seen)
     if over.way == "factor":
         hats = [np.where(known, hat, 0.0) for hat in _hats(over.at, seen)]
@@ -71,6 +74,13 @@ def _hats(at: Sequence[float], seen: Any) -> list[Any]:
     """The share of each place: 1 there, falling along straight lines to 0 at its neighbours; the outer ones go on."""
     rises = [np.clip((seen - low) / (high - low), 0.0, 1.0) for low, high in zip(at, at[1:], strict=False)]
     return [before - after for before, after in zip([1.0, *rises], [*rises, 0.0], strict=True)]
+
+
+@lru_cache(maxsize=1024)
+def _near(at: Sequence[float], seen: float) -> list[tuple[int, float]]:
+    """The places with a share at a number, and these; none where it is NaN."""
+    shares = [float(hat) for hat in _hats(at, seen)] if seen == seen else []
+    return [(place, share) for place, share in enumerate(shares) if share]
 
 
 def _exponential(exponent: Any) -> Any:

@@ -34,24 +34,19 @@ def with_constants(spec: NetworkSpec, lanes: Array, settings: Mapping[str, float
 def _with_settings(
     spec: NetworkSpec, lanes: Array, settings: Mapping[str, float], counts: Callable[[Slot], bool]
 ) -> Array:
-    slots = spec.slots()
-    given = {
-        number: settings[slot.value.setting] for number, slot in enumerate(slots) if slot.value.setting in settings
-    }
-    changed = [
-        (number, slot.value.over)
-        for number, slot in enumerate(slots)
-        if slot.value.over and told_to(slot.value.over, settings) is not None and counts(slot)
-    ]
-    if not given and not changed:
-        return lanes
-    own = lanes.copy()
-    if given:
-        own[:, list(given)] = list(given.values())
-    for number, over in changed:
-        # the parameters of a dependence stand behind the number that depends
-        inner = lanes[:, number + 1 : number + 1 + len(over.numbers)]
-        own[:, number] = _at(over, lanes[:, number], inner, settings, slots[number].value.sensible)
+    own = lanes
+    for number, slot in spec.told_by_runs:
+        over = slot.value.over
+        if slot.value.setting in settings:
+            found: Array | float = settings[slot.value.setting]
+        elif over and told_to(over, settings) is not None and counts(slot):
+            # the parameters of a dependence stand behind the number that depends
+            inner = lanes[:, number + 1 : number + 1 + len(over.numbers)]
+            found = _at(over, lanes[:, number], inner, settings, slot.value.sensible)
+        else:
+            continue
+        own = lanes.copy() if own is lanes else own
+        own[:, number] = found
     return own
 
 

@@ -270,6 +270,11 @@ class NetworkSpec:
         return tuple(each for slot in found for each in (slot, *over_slots(slot)))
 
     @cached_property
+    def told_by_runs(self) -> tuple[tuple[int, Slot], ...]:
+        """The numbers that a run gives by its settings, or that depend on them, with their places among the slots."""
+        return tuple((k, slot) for k, slot in enumerate(self._slots) if slot.value.setting or slot.value.over)
+
+    @cached_property
     def derived(self) -> Derived:
         """How numbers follow from others. Raises InputError for an expression that does not fit the network."""
         from dashpot.model.derived import derived_of

@@ -137,7 +137,7 @@ def _fault_of(run: Run, known: Agreement, inside: Sequence[Run], sizes: Sizes, l
     allowed = known.reach + change
     if gain > 0.0 and likeness >= MOSTLY and abs(math.log(gain)) <= known.reach:
         return None
-    force = _force_fault(run, gain, likeness, known, least) or _far_fault(run, gain, likeness, allowed, least)
+    force = _force_fault(run, gain, likeness, known, least) or _far_fault(run, gain, likeness, known, allowed, least)
     # where a force hardly depends on the deflection, as friction, any divisor of this makes it like the others
     beyond = change_by_conditions([*inside, run]) - change > allowed
     stroke = _stroke_fault(run, known, sizes, allowed, least) if beyond else None
@@ -191,12 +191,12 @@ def _force_fault(run: Run, gain: float, likeness: float, known: Agreement, least
     if not gain > 0.0 or likeness < MOSTLY or abs(math.log(gain)) <= known.reach:
         return None
     near = _near(gain, FORCES, known.tolerance, least)
-    if not near:
+    if not any(_may_be(factor, known, likeness) for factor in near):
         return None
     return _unit_of_force(run, gain, near, _correction(near))
 
 
-def _far_fault(run: Run, gain: float, likeness: float, allowed: float, least: float) -> Fault | None:
+def _far_fault(run: Run, gain: float, likeness: float, known: Agreement, allowed: float, least: float) -> Fault | None:
     """A force farther off than conditions explain: ``allowed``, in logs. Corrected only where the factor is clear.
 
     Below the factor that no setting has, a run of another setting is at fault only where the factor is clear.
@@ -205,11 +205,19 @@ def _far_fault(run: Run, gain: float, likeness: float, allowed: float, least: fl
         return None
     near = _near(gain, FORCES, allowed, SETTLED)
     nearest = near[0] if near else _near(gain, FORCES, math.inf, SETTLED)[0]
-    clear = _is_clear(gain, nearest)
+    clear = _is_clear(gain, nearest) and _may_be(nearest, known, likeness)
     near = near or [nearest] * clear
     if abs(math.log(gain)) < math.log(SETTLED) and not (clear if least > 1.0 else near):
         return None
     return _unit_of_force(run, gain, near, 1.0 / near[0] if clear else None)
+
+
+def _may_be(factor: float, known: Agreement, likeness: float) -> bool:
+    """Whether a unit may be mistaken: a prefix often is, another one where the course is as like as that of the others.
+
+    No unit changes the course of a force. Clipping and a law that the others do not show do.
+    """
+    return factor in PREFIXES or known.is_like(likeness)
 
 
 def _is_clear(gain: float, factor: float) -> bool:
@@ -239,7 +247,7 @@ def _stroke_fault(run: Run, known: Agreement, sizes: Sizes, allowed: float, leas
         gain, likeness = known.compare(seen)
         within = allowed if abs(math.log(factor)) >= math.log(SETTLED) else known.tolerance
         near = gain > 0.0 and abs(math.log(gain)) <= within and likeness >= MOSTLY
-        if near and abs(math.log(factor)) > max(known.reach, math.log(least)):
+        if near and _may_be(factor, known, likeness) and abs(math.log(factor)) > max(known.reach, math.log(least)):
             fitting[factor] = abs(math.log(gain))
     if not fitting:
         return None

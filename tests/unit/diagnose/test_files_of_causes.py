@@ -8,7 +8,12 @@ from unit.causes.test_promises import NETWORK, REGISTRY, STEP, VIEW, usual_atoms
 
 from dashpot.cli import main
 from dashpot.data.dataset import read_dataset
+from dashpot.diagnose.refit import Refitter
+from dashpot.diagnose.term import Model, Term
+from dashpot.diagnose.term import extended as extended_by
 from dashpot.fit.api import measure_errors, prepare
+from dashpot.fit.coordinates import search_coordinates
+from dashpot.fit.ranges import with_ranges
 from dashpot.fit.scored import warm_up
 from dashpot.model.reading import parse_network
 
@@ -68,3 +73,20 @@ def test_every_pair_of_causes_is_simulated_as_it_is_scored(names, data, tmp_path
     for name in names:
         text = extended(text, name)
     assert_simulated_as_scored(text, data, tmp_path)
+
+
+@pytest.mark.parametrize("name", SUSPECTS)
+def test_what_a_term_adds_is_what_the_network_without_it_lacks(name, data):
+    """Branches of their own are simulated alone, anything else by two networks: the same, within rounding."""
+    base = parse_network(NETWORK, REGISTRY.elements)
+    cause = REGISTRY.causes[name.partition("-")[0]]
+    term = Term(cause, SUSPECTS[name], tuple(usual_atoms(SUSPECTS[name])))
+    declared, owned = extended_by(base, term, REGISTRY.elements)
+    dataset = read_dataset(data, {word: reader() for word, reader in REGISTRY.formats.items()})
+    refitter = Refitter([*prepare(dataset, 0).scored.values()], REGISTRY.elements)
+    coordinates = search_coordinates(with_ranges(declared, refitter.sizes))
+    model = Model(base, (term,), declared, (owned,), declared, coordinates, coordinates.start)
+    whole, rest, (found,) = refitter.forces(declared), refitter.forces(base), refitter.term_forces(model)
+    assert set(found) == set(whole)
+    for run, force in found.items():
+        assert force == pytest.approx(whole[run] - rest[run], abs=1e-9 * np.abs(whole[run]).max())

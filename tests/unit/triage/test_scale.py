@@ -86,6 +86,19 @@ def test_a_small_factor_within_the_spread_is_left_alone(factor):
     assert told(scaled(rubber(0.6), 0, "force", factor)) == []
 
 
+@pytest.mark.parametrize("limit", [2000.0, 2500.0, 3000.0])
+def test_clipped_runs_of_a_stiffening_specimen_are_in_no_other_unit(limit):
+    """Cut off at a force beyond which the others never were, a run may be four times too weak, in another course."""
+    runs = []
+    for k, (middle, stroke) in enumerate([(5.0, 1.0), (5.0, 3.0), (8.0, 1.0), (8.0, 3.0), (11.0, 1.0), (11.0, 3.0)]):
+        way = stroke * np.sin(2.0 * np.pi * 3.0 * TIME)
+        x, v = 1e-3 * (middle + way), 1e-3 * np.gradient(way, TIME)
+        force = np.minimum(2e5 * x + 300.0 * v + 1.9e10 * (x - 8e-3) ** 3, limit)
+        force = force + 5.0 * np.random.default_rng(k).standard_normal(x.size)
+        runs.append(Run(f"p{middle:g}_a{stroke:g}", "harmonic", TIME, {"displacement": x, "force": force}))
+    assert told(runs) == []
+
+
 @pytest.mark.parametrize("factor", [3.0, 0.4, 21.7, 60.0])
 def test_a_factor_that_nobody_knows_is_left_to_the_diagnosis(factor):
     assert told(scaled(rubber(0.0), 3, "force", factor)) == []
