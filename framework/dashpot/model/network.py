@@ -257,15 +257,10 @@ class NetworkSpec:
     @cached_property
     def _slots(self) -> tuple[Slot, ...]:
         found = [slot for branch in self.leaves() if not branch.shares for slot in branch_slots(branch)]
-        found += [
-            Slot(f"{name}.offset", ends.offset) for name, ends in self.ends.items() if ends.offset and not ends.shares
-        ]
-        found += [
-            Slot(f"{joint.name}.{key}", value)
-            for joint in self.joints.values()
-            if not joint.shares
-            for key, value in joint.masses.items()
-        ]
+        moved = ((name, ends.offset) for name, ends in self.ends.items() if not ends.shares)
+        found += [Slot(f"{name}.offset", offset) for name, offset in moved if offset]
+        heavy = (joint for joint in self.joints.values() if not joint.shares)
+        found += [Slot(f"{joint.name}.{key}", value) for joint in heavy for key, value in joint.masses.items()]
         found += [Slot(f"measurement.{key}", value) for key, value in self.measurement.items()]
         return tuple(each for slot in found for each in (slot, *over_slots(slot)))
 
