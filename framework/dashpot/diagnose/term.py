@@ -24,6 +24,8 @@ from dashpot.text.document import Document
 Array = NDArray[np.float64]
 
 AT_BOUND = 1e-3  # of a range
+# what a force channel does to every force alike, and what it does not
+IN_PROPORTION, LIMITS = ("force.gain", "force.delay", "force.lag"), frozenset(("force.largest", "force.least"))
 
 
 @dataclass(frozen=True, eq=False)
@@ -200,23 +202,20 @@ def first_model(declared: NetworkSpec, fitted: NetworkSpec) -> Model:
 
 def alone(model: Model, number: int) -> NetworkSpec | None:
     """The branches of a term as a network of their own, where these are all that goes with it, in parallel to the rest;
-    else None.
+    else None. The force channel shows them in proportion, without its offset.
     """
-    network, term = model.fitted, model.terms[number]
-    names = _branches(model.owned[number])
+    network, term, owned = model.fitted, model.terms[number], model.owned[number]
+    names, seen = _branches(owned), network.measurement
     before = {one.name for one in model.base.root.members} if isinstance(term, Term) else set()
     members = tuple(one for one in network.root.members if isinstance(one, Branch) and one.name in names - before)
-    beside = network.joints or network.measurement or network.root.kind != "parallel"
-    # a dependence of numbers here and elsewhere would go as a whole
-    wider = (found for owned in model.owned if names & (found := _branches(owned)) and not found <= names)
-    if (
-        beside
-        or len(members) < len(names)
-        or any(wider)
-        or not all(_is_own(one, model.owned[number]) for one in members)
-    ):
+    if network.joints or network.root.kind != "parallel" or not LIMITS.isdisjoint(seen):
         return None
-    return NetworkSpec(term.word, Group("", "parallel", members))
+    # a dependence of numbers here and elsewhere would go as a whole
+    wider = any(names & (found := _branches(other)) and not found <= names for other in model.owned)
+    if wider or len(members) < len(names) or not all(_is_own(one, owned) for one in members):
+        return None
+    channel = {key: value for key, value in seen.items() if key in IN_PROPORTION}
+    return NetworkSpec(term.word, Group("", "parallel", members), channel)
 
 
 def _branches(paths: Sequence[str]) -> set[str]:

@@ -75,10 +75,16 @@ def test_every_pair_of_causes_is_simulated_as_it_is_scored(names, data, tmp_path
     assert_simulated_as_scored(text, data, tmp_path)
 
 
-@pytest.mark.parametrize("name", SUSPECTS)
-def test_what_a_term_adds_is_what_the_network_without_it_lacks(name, data):
+LATE = "measurement: {force: {gain: 1.1, delay: 3 ms, lag: 2 ms, offset: 9 N}}\n"
+OF_THE_SPECIMEN = [name for name in SUSPECTS if REGISTRY.causes[name.partition("-")[0]].kind == "specimen"]
+
+
+@pytest.mark.parametrize(
+    ("name", "channel"), [*((name, "") for name in SUSPECTS), *((name, LATE) for name in OF_THE_SPECIMEN)]
+)
+def test_what_a_term_adds_is_what_the_network_without_it_lacks(name, channel, data):
     """Branches of their own are simulated alone, anything else by two networks: the same, within rounding."""
-    base = parse_network(NETWORK, REGISTRY.elements)
+    base = parse_network(NETWORK + channel, REGISTRY.elements)
     cause = REGISTRY.causes[name.partition("-")[0]]
     term = Term(cause, SUSPECTS[name], tuple(usual_atoms(SUSPECTS[name])))
     declared, owned = extended_by(base, term, REGISTRY.elements)
