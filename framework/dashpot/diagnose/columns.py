@@ -88,15 +88,15 @@ class Columns:
         return self.base.size + len(next(iter(self.bends.values())))
 
     @property
-    def _first(self) -> int:
-        """How many columns there are in front."""
+    def first(self) -> int:
+        """How many columns there are in front, which are projected out."""
         return self.free + self.doubted * len(self.refitter.runs)
 
     def of(self, run: ScoredRun) -> Array:
         """All columns of a run, as rows (c, kept)."""
         name, layout = run.name, self.layout
         faults = shapes_of(self.faults, self.view, run, self.plain)
-        runs, first = [one.name for one in self.refitter.runs], self._first
+        runs, first = [one.name for one in self.refitter.runs], self.first
         rows = np.zeros((first + layout.size, self.plain.kept(name, run.samples)))
         rows[: self.base.size] = self.tangents[name][self.base]
         rows[self.base.size : self.free] = self.plain.reduce(name, self.bends[name])
@@ -116,7 +116,7 @@ class Columns:
             at = np.arange(candidate.columns.start, candidate.columns.stop)
             rows = self.refitter.kept_columns(candidate, run)
             if rows is not None and not np.isin(at, self.unseen).any():
-                places.append(self._first + self.layout.first_candidate + at)
+                places.append(self.first + self.layout.first_candidate + at)
                 found.append(rows)
         return np.concatenate(places), found
 

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -42,14 +43,40 @@ class Doubt:
     strengths: Array
 
 
+@dataclass(eq=False)
+class Recorded:
+    """The noise of the records beside all columns of a look, found when it is asked for."""
+
+    refitter: Refitter
+    model: Model
+    view: ModelView
+    candidates: Sequence[Candidate]
+    kinds: Sequence[ChannelFault]
+    doubted: Sequence[Doubt]
+    folds: Folds
+    white: Noise
+
+    @cached_property
+    def found(self) -> tuple[Noise, float]:
+        """The noise, and the RMS in N of what all columns together leave."""
+        refitter, jobs = self.refitter, self.refitter.jobs
+        faults = [doubt.fault for doubt in self.doubted]
+        inside = _inside_of(refitter, self.model)
+        columns = linearised(refitter, self.model, self.view, inside, self.candidates, faults)
+        rows = Rows(columns, jobs)
+        grams, _, _ = _grams(rows, self.white, self.folds, jobs)
+        shapes = _shapes(self.kinds, self.view, refitter.runs, columns.plain)
+        noise, rich = recorded_noise(rows, grams, columns.first, self.white, refitter.runs, shapes)
+        return stated(noise, refitter.sensors, refitter.runs), rich
+
+
 @dataclass(frozen=True, eq=False)
 class Look:
     """The whitened columns behind the ``front``, ``samples`` (groups,) of them.
 
-    ``own`` (t,) are the coordinates of the terms' numbers, ``base`` (p,) those of the base. ``rich`` is what all
-    columns together leave, N. ``measured_noise`` is that of the records alone, without the error of the model,
-    ``sizes`` (c,) the RMS of columns in N. ``exact`` (groups, 1 + t, 1 + t) are the Gram matrices of residual and
-    tangents without errors of forms.
+    ``own`` (t,) are the coordinates of the terms' numbers, ``base`` (p,) those of the base. ``recorded`` tells the
+    noise of the records alone; without it that is ``noise``. ``sizes`` (c,) are the RMS of columns in N. ``exact``
+    (groups, 1 + t, 1 + t) are the Gram matrices of residual and tangents without errors of forms.
     """
 
     model: Model
@@ -63,11 +90,20 @@ class Look:
     folds: Folds
     sizes: Array
     unavailable: tuple[tuple[str, str], ...]
-    measured_noise: Noise
-    rich: float
+    recorded: Recorded | None
     own: NDArray[np.intp]
     base: NDArray[np.intp]
     odds: Odds
+
+    @property
+    def measured_noise(self) -> Noise:
+        """The noise of the records alone, without the error of the model."""
+        return self.recorded.found[0] if self.recorded else self.noise
+
+    @property
+    def rich(self) -> float:
+        """What all columns together leave, N."""
+        return self.recorded.found[1] if self.recorded else 0.0
 
 
 def look_at(
@@ -86,26 +122,20 @@ def look_at(
     be ``known``.
     """
     runs, view = refitter.runs, view_of(model.fitted, moved(refitter.runs), refitter.elements, refitter.jobs)
-    inside = Inside(model.fitted, runs, refitter.elements) if model.fitted.joints else None
+    inside = _inside_of(refitter, model)
     if known is None:
         candidates, unavailable = gather_candidates(causes, locations_of(view, model.fitted, inside), refitter.sheet)
     else:
         candidates, unavailable = list(known), ()
     columns = linearised(refitter, model, view, inside, candidates, [doubt.fault for doubt in doubted])
-    layout, free, plain = columns.layout, columns.free, columns.plain
+    layout, free, first = columns.layout, columns.free, columns.first
     precision = _known_beforehand(free, doubted, len(runs))
-    first = precision.size  # columns in front, which are projected out
-    rows = Rows(columns, refitter.jobs)
-    alone, rich = noise, 0.0
+    recorded = None
     if noise is None:
         kinds = [fault for cause in causes for fault in cause().channel_faults(view)]
         noise = _left_by(columns, [fault for fault in kinds if fault.evidence_of == "at_rest"])
-        grams, samples, squares = _grams(rows, noise, folds, refitter.jobs)
-        alone, rich = recorded_noise(rows, grams, first, noise, runs, _shapes(kinds, view, runs, plain))
-        alone = stated(alone, refitter.sensors, runs)
-    else:
-        grams, samples, squares = _grams(rows, noise, folds, refitter.jobs)
-    del rows
+        recorded = Recorded(refitter, model, view, candidates, kinds, doubted, folds, noise)
+    grams, samples, squares = _grams(Rows(columns, refitter.jobs), noise, folds, refitter.jobs)
     terms = 1 + layout.tangents
     plainly = grams[:, : first + terms, : first + terms]
     moves = in_front(plainly.sum(axis=0), precision)
@@ -124,8 +154,7 @@ def look_at(
         folds=folds,
         sizes=np.sqrt(squares[first:]),
         unavailable=unavailable,
-        measured_noise=alone or noise,
-        rich=rich,
+        recorded=recorded,
         own=columns.own,
         base=columns.base,
         odds=Odds(layout.bank, refitter.missing),
@@ -148,6 +177,11 @@ def look_settled(
     noise = _left_by(linearised(refitter, model, view, None, (), ()), ())
     settled = refitter.refit(model, model.terms, noise)
     return look_at(refitter, settled, causes, folds, doubted=doubted, known=known)
+
+
+def _inside_of(refitter: Refitter, model: Model) -> Inside | None:
+    """The inside of a network with nodes."""
+    return Inside(model.fitted, refitter.runs, refitter.elements) if model.fitted.joints else None
 
 
 def _left_by(columns: Columns, lines: Sequence[ChannelFault]) -> Noise:

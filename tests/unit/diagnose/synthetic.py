@@ -50,7 +50,6 @@ def look_of(rows: Mapping[str, np.ndarray], candidates: Sequence[Candidate]) -> 
         np.ones(1 + bank),
         (),
         None,
-        1.0,
         nothing,
         nothing,
         Odds(bank),
