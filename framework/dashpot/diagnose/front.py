@@ -34,7 +34,7 @@ class Beside:
     the base, ``squares`` (c,) the residual of the columns. ``gram`` (c, c) is the Gram matrix of all runs, and of what
     is known beforehand, of columns divided by their ``scale`` (c,). ``precision`` (e,) is that of the columns in front,
     ``tangents`` how many parameters terms have, and ``occam`` the nats by which the marginal likelihood is below
-    that of the best strengths.
+    that of the best strengths. ``grams`` (groups, e + c, e + c) are those of the groups, before anything is fitted.
     """
 
     columns: NDArray[np.intp]
@@ -46,11 +46,31 @@ class Beside:
     precision: Array
     tangents: int
     occam: float
+    grams: NDArray[np.floating]
 
     @property
     def nbytes(self) -> int:
         """The bytes of its matrices."""
-        return self.moves.nbytes + self.base_moves.nbytes + self.gram.nbytes
+        return (
+            self.moves.nbytes + self.base_moves.nbytes + self.gram.nbytes + len(self.grams) * 8 * len(self.moves) ** 2
+        )
+
+    @cached_property
+    def _inner(self) -> Array:
+        """The Gram matrices (groups, e, e) of the columns in front."""
+        front = self.columns[: len(self.moves)]
+        return self.grams[:, front[:, None], front].astype(float)
+
+    def groups(self, combined: Array) -> Array:
+        """The Gram matrices (groups, k, k) of combinations (c, k) of these columns, by the group of runs."""
+        used, kept = np.flatnonzero(combined.any(axis=1)), len(self.moves)
+        front, at, own = self.columns[:kept], self.columns[kept + used], combined[used]
+        taken = self.moves[:, used] @ own
+        cross = own.T @ self.grams[:, at[:, None], front] @ taken
+        found: Array = own.T @ self.grams[:, at[:, None], at] @ own + taken.T @ (self._inner @ taken)
+        found -= cross
+        found -= cross.transpose(0, 2, 1)
+        return found
 
     def unlikely(self, strengths: Array) -> float:
         """How unlikely a combination (c,) of the columns is beforehand, in nats."""
@@ -108,7 +128,8 @@ class Front:
         gram /= np.outer(scale, scale)
         base = self.base_moves[:, first:] - self.base_moves[:, :first] @ moves
         columns = np.arange(len(total))
-        return Beside(columns, moves, base, squares, scale, gram, precision, self.tangents, occam(total, precision))
+        nats = occam(total, precision)
+        return Beside(columns, moves, base, squares, scale, gram, precision, self.tangents, nats, self.grams)
 
     def _part(self, whole: Beside, going: NDArray[np.bool_]) -> Beside:
         """The same where some of the columns in front are ``going`` (e,): a change of their rank."""
@@ -122,22 +143,12 @@ class Front:
         squares = np.diag(gram) * whole.scale**2 - precision @ moves**2
         squares[1 : 1 + self.tangents] -= 1.0
         nats = occam(self.total[np.ix_(kept, kept)], precision)
-        return Beside(columns, moves, base, squares, whole.scale, gram, precision, self.tangents, nats)
+        return Beside(columns, moves, base, squares, whole.scale, gram, precision, self.tangents, nats, self.grams)
 
     @cached_property
     def _covariance(self) -> Array:
         """The covariance (e, e) of the strengths of the columns in front."""
         return covariance(self.total, self.precision)
-
-    def groups(self, combined: Array, gone: frozenset[int] = NONE) -> Array:
-        """The Gram matrices (groups, k, k) of combinations (c, k) of these columns, where some terms are ``gone``."""
-        found, kept = self.beside(gone), self.precision.size
-        used = np.flatnonzero(combined.any(axis=1))
-        front = found.columns[: len(found.moves)]
-        at = np.concatenate([front, kept + used])
-        whole = np.vstack([-found.moves[:, used] @ combined[used], combined[used]])
-        left: Array = whole.T @ self.grams[:, at[:, None], at] @ whole
-        return left
 
 
 def front_of(

@@ -130,14 +130,14 @@ class Scores:
 
     def _predicted(self, structure: Structure) -> tuple[Array, float]:
         at, target, gone = self.columns(structure), self.target(structure), structure.dropped
-        front, gram, samples = self.look.front, self.gram(gone), self.look.samples
+        beside, gram, samples = self.look.front.beside(gone), self.gram(gone), self.look.samples
         foreseen = structure != Structure()
-        left = _left_out(front.groups(_scaled(self.scale, at, target), gone), gram, at, target, foreseen)
+        left = _left_out(beside.groups(_scaled(self.scale, at, target)), gram, at, target, foreseen)
         rest = target.copy()
         if foreseen:
             rest[at] -= np.linalg.solve(steadied(gram, at), gram[at] @ target)
         rest *= self.scale[0] / self.scale
-        return np.maximum(left * self.scale[0] ** 2 / samples, 1e-12), front.beside(gone).unlikely(rest)
+        return np.maximum(left * self.scale[0] ** 2 / samples, 1e-12), beside.unlikely(rest)
 
     def exact(self) -> Array:
         """Mean square (groups,) of each group, predicted from all others by the present structure.

@@ -81,7 +81,7 @@ def test_gram_matrices_are_those_of_the_residual_and_of_what_a_refit_of_the_base
     for run, rows in left.items():
         for number, part in look.folds.of_run(run, rows.shape[1]):
             expected = rows[:, part] @ rows[:, part].T / np.outer(scale, scale)
-            assert look.front.groups(np.diag(1.0 / scale))[number] == pytest.approx(expected, abs=2e-6)
+            assert look.front.beside().groups(np.diag(1.0 / scale))[number] == pytest.approx(expected, abs=2e-6)
             assert look.samples[number] == pytest.approx(look.noise.independent[run] * (part.stop - part.start))
             seen.add(number)
     assert seen == set(range(len(look.folds.names)))
@@ -206,8 +206,8 @@ def test_errors_of_a_form_go_with_its_term(block, gone, kept):
     strengths = np.linalg.solve(forms @ forms.T + np.diag(known), forms @ target.T)
     left = target - strengths.T @ forms
     assert found.squares == pytest.approx(np.sum(left**2, axis=1))
-    assert front.groups(np.eye(4), frozenset(gone)).sum(axis=0) == pytest.approx(left @ left.T)
-    assert front.groups(mixed, frozenset(gone)).sum(axis=0) == pytest.approx(mixed.T @ left @ left.T @ mixed)
+    assert front.beside(frozenset(gone)).groups(np.eye(4)).sum(axis=0) == pytest.approx(left @ left.T)
+    assert front.beside(frozenset(gone)).groups(mixed).sum(axis=0) == pytest.approx(mixed.T @ left @ left.T @ mixed)
     gram = found.gram * np.outer(found.scale, found.scale)
     assert gram == pytest.approx(target @ np.linalg.solve(covariance, target.T))
     some = np.array([1.0, -2.0, 0.0, 3.0])
@@ -220,7 +220,9 @@ def test_rows_that_are_not_held_are_made_again(made, look, monkeypatch):
     monkeypatch.setattr("dashpot.diagnose.columns.HELD_BYTES", 0)
     again = look_at(made.refitter, made.model, [Closed], folds_of(made.refitter.runs, made.groups))
     every = np.eye(look.layout.size)
-    assert (again.front.groups(every) == look.front.groups(every)).all() and (again.sizes == look.sizes).all()
+    assert (again.front.beside().groups(every) == look.front.beside().groups(every)).all() and (
+        again.sizes == look.sizes
+    ).all()
 
 
 def test_columns_that_are_kept_in_memory_are_those_that_are_computed(made):
