@@ -72,7 +72,10 @@ def examine(dataset: Dataset) -> Triage:
     turned, late = work_faults(runs)
     turned = [fault for fault in turned if fault.run not in accepted]
     runs = _without(runs, turned)
-    scaled = [fault for fault in wrong_scales(runs) if fault.run not in accepted]
+    # what gives energy back is no matter of comparison: a run that was turned for it is not turned back
+    certain = {fault.run for fault in turned}
+    scaled = [one for one in wrong_scales(runs) if not (one.kind == "polarity" and one.run in certain)]
+    scaled = [fault for fault in scaled if fault.run not in accepted]
     runs = _without(runs, scaled)
     faults = [*copied, *turned, *scaled]
     kept = {run.name: run for run in runs} | {run.name: run for run in whole if run not in measured}
