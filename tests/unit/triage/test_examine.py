@@ -204,3 +204,25 @@ def test_samples_of_a_crank_that_are_lost_on_its_way_are_told(phase):
     run = Run("crank", "harmonic", time[: keep.size], {"displacement": x[keep], "force": 2e4 * x[keep]})
     found = lost_samples(run)
     assert found is not None and found.kind == "lost_samples" and f"at {0.01 * at:.6g} s" in found.evidence
+
+
+def test_a_unit_that_was_corrected_is_not_told_again_by_the_settings(rng):
+    """In mm as if they were m a run moves otherwise than declared; corrected it does not."""
+    sound = dataset(rng)
+    wrong = with_run(sound, 3, displacement=1000.0 * sound.runs[3].displacement)
+    runs = [replace(run, settings={"amplitude": 0.5 * float(np.ptp(run.displacement))}) for run in sound.runs]
+    told = tuple(replace(run, settings=one.settings) for run, one in zip(wrong.runs, runs, strict=True))
+    found = examine(replace(wrong, runs=told))
+    assert [fault.kind for fault in found.faults] == ["unit_of_displacement"]
+    assert not [remark for remark in found.remarks if "otherwise than declared" in remark]
+
+
+def test_a_run_that_gives_energy_back_is_not_turned_back_by_the_others(rng):
+    """Ramps, which have no closed cycles, agree with each other in a wrong sign; the sine has to take up work."""
+    runs = []
+    for number, stroke in enumerate((1.5, 3.0, 4.5, 6.0, 0.0)):
+        x = 1e-3 * (stroke * TIME / TIME[-1] if stroke else 3.0 * np.sin(6.0 * np.pi * TIME))
+        force = -2e5 * x - 400.0 * np.gradient(x, TIME) + 2.0 * rng.standard_normal(x.size)
+        runs.append(Run(f"r{number}", "harmonic", TIME, {"displacement": x, "force": force}))
+    (fault,) = examine(Dataset("made", tuple(runs))).faults
+    assert (fault.run, fault.kind, fault.factor) == ("r4", "polarity", -1.0)
