@@ -73,14 +73,14 @@ def examine(dataset: Dataset) -> Triage:
     turned = [fault for fault in turned if fault.run not in accepted]
     runs = _without(runs, turned)
     # what gives energy back is no matter of comparison: a run that was turned for it is not turned back
-    certain = {fault.run for fault in turned}
-    scaled = [one for one in wrong_scales(runs) if not (one.kind == "polarity" and one.run in certain)]
-    scaled = [fault for fault in scaled if fault.run not in accepted]
+    certain = accepted | {fault.run for fault in turned}
+    scaled = [one for one in wrong_scales(runs) if one.run not in (certain if one.kind == "polarity" else accepted)]
     runs = _without(runs, scaled)
     faults = [*copied, *turned, *scaled]
     kept = {run.name: run for run in runs} | {run.name: run for run in whole if run not in measured}
     left = group_repeats(_knowing_better([kept[run.name] for run in whole if run.name in kept], measured, faults))
-    sound = [run for run in left if run.name in {each.name for each in runs}]
+    names = {run.name for run in runs}
+    sound = [run for run in left if run.name in names]
     remarks = late + moved_otherwise(sound) + actuator_remarks(sound)
     if not left:
         left = list(whole)

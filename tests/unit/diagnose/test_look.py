@@ -220,9 +220,8 @@ def test_rows_that_are_not_held_are_made_again(made, look, monkeypatch):
     monkeypatch.setattr("dashpot.diagnose.columns.HELD_BYTES", 0)
     again = look_at(made.refitter, made.model, [Closed], folds_of(made.refitter.runs, made.groups))
     every = np.eye(look.layout.size)
-    assert (again.front.beside().groups(every) == look.front.beside().groups(every)).all() and (
-        again.sizes == look.sizes
-    ).all()
+    assert (again.front.beside().groups(every) == look.front.beside().groups(every)).all()
+    assert (again.sizes == look.sizes).all()
 
 
 def test_columns_that_are_kept_in_memory_are_those_that_are_computed(made):
