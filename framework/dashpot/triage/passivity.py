@@ -47,7 +47,8 @@ def work_faults(runs: Sequence[Run]) -> tuple[list[Fault], list[str]]:
         names = ", ".join(f"'{run.name}'" for run in bad)
         return [], [
             f"{names} give back work, which no passive specimen does; with the force of all runs earlier by "
-            f"{pretty(delay, 's', 2)} or more none does: it comes late in all of them"
+            f"{pretty(delay, 's', 2)} or more none does: it comes late in all of them. Let the network identify the "
+            "delay ('measurement:'), or write it under the force channel of all runs"
         ]
     if together := _turned_together(bad, sound, works):
         return [*together, *_turned_like(together, runs, works)], []
@@ -102,13 +103,15 @@ def _common_delay(bad: Sequence[Run], sound: Sequence[Run], works: Mapping[str, 
 
     Which of them give it back is a matter of stiffness and loss then, as of one preload, and no fault of theirs. The
     others have to predict them, all forces taken earlier, as well as they predict each other, and better than if these
-    runs alone were late.
+    runs alone were late; where there are no others, each of these has to be late by itself.
     """
-    if len(bad) < FEWEST_TOGETHER or len(sound) < FEWEST_OTHERS:
+    if len(bad) < FEWEST_TOGETHER or 0 < len(sound) < FEWEST_OTHERS:
         return None
     least = max(_least_delay(works[run.name]) for run in bad)
     if any(least > _longest(run, works[run.name]) * run.sample_time for run in bad):
         return None
+    if not sound:
+        return least if all(_by_itself(run, works[run.name]).kind == "delay" for run in bad) else None
     sizes = Sizes.of(sound)
     earlier = [_earlier(run, least, sizes) for run in sound]
     usual = [_missed(each, fitted(_but(number, earlier))) for number, each in enumerate(earlier)]
