@@ -8,7 +8,7 @@ from itertools import product
 
 import numpy as np
 
-from dashpot.contract.cause import NOTHING, Cause, Pair, Suspect, View, added_branch
+from dashpot.contract.cause import Cause, Pair, Suspect, View, added_branch
 from dashpot.model.network import NetworkSpec
 
 SIDES = ("compression", "rebound")
@@ -25,8 +25,9 @@ KNEES = (0.02, 0.06, 0.2, 0.6)  # of the largest speed
 RATIOS = (0.5, 1.0, 2.0)  # damping in compression over that in rebound
 TIMES = (0.02, 0.1, 0.5)  # of 1/w at the end of the band: the lag of the force
 SHARP = 4.0  # how sharply a blow-off opens
-SERIES = {"stiffness": (1.0, 1e10)}
-OPENS = 0.015  # of the largest speed: a force that is flat beyond a lower knee is dry friction's
+KNEE, SHARPEST = (1e-4, 1e3), 1e3  # m/s and s/m: the ranges of the elements
+SERIES: dict[str, Pair] = {"stiffness": (1.0, 1e10)}
+OPENS = 0.015  # of the largest speed, at least: a force that is flat beyond a lower knee is dry friction's
 
 
 class Valve(Cause):
@@ -46,11 +47,14 @@ class Valve(Cause):
         """A digressive curve with a knee in both directions; a sharp blow-off; both behind a spring that lets the
         force lag, over knees, asymmetries and lags.
         """
-        yield _form(view, "a knee in both directions", "asymmetric_damper", _digressive, (0.0,), 3)
+        least = OPENS * view.speed
+        bends: dict[str, Pair] = {f"{side}_digression": (0.0, min(1.0 / least, SHARPEST)) for side in SIDES}
+        knees: dict[str, Pair] = {f"{side}_knee": (max(least, KNEE[0]), KNEE[1]) for side in SIDES} | SERIES
+        yield _form(view, "a knee in both directions", "asymmetric_damper", _digressive, (0.0,), 3, bends)
         band = 2.0 * np.pi * view.highest_frequency
         lags = tuple(share / band for share in TIMES)
-        yield _form(view, "a knee behind a spring", "valve", _lagging, lags, 5, SERIES)
-        yield _form(view, "a sharp blow-off behind a spring", "valve", _sharp, lags, 6, SERIES)
+        yield _form(view, "a knee behind a spring", "valve", _lagging, lags, 5, knees)
+        yield _form(view, "a sharp blow-off behind a spring", "valve", _sharp, lags, 6, knees)
 
 
 def _form(
@@ -60,7 +64,7 @@ def _form(
     values: Callable[..., Mapping[str, float]],
     lags: tuple[float, ...],
     unknowns: int,
-    bounds: Mapping[str, Pair] = NOTHING,
+    bounds: Mapping[str, Pair],
 ) -> Suspect:
     places = [(knee * view.speed, ratio, lag) for knee, ratio, lag in product(KNEES, RATIOS, lags)]
     suspect = added_branch(
@@ -71,19 +75,9 @@ def _form(
         UNITS,
         unknowns=unknowns,
         bounds=bounds,
-        admits=lambda numbers: _knee(numbers) > OPENS * view.speed,
         form=form,
     )
     return replace(suspect, quantity="damping", unit="N*s/m")
-
-
-def _knee(numbers: Mapping[str, float]) -> float:
-    """The knee in m/s, the mean of both directions by the force at which they open."""
-    knees = {
-        side: numbers.get(f"{side}_knee", 1.0 / max(numbers.get(f"{side}_digression", 0.0), 1e-12)) for side in SIDES
-    }
-    forces = {side: numbers[side] * knee for side, knee in knees.items()}
-    return sum(knees[side] * forces[side] for side in SIDES) / max(sum(forces.values()), 1e-300)
 
 
 def _digressive(damping: float, knee: float, ratio: float, _: float) -> Mapping[str, float]:
