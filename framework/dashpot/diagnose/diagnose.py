@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
@@ -83,7 +84,8 @@ def diagnose(
     groups = {run.name: run.cluster for run in triage.dataset.runs}
     sensors = {run.name: run.sensors.get("force", {}) for run in triage.dataset.runs}
     searched = setting.train if spec.joints else subsampled(setting.train)
-    refitter = Refitter(begun_together(searched, groups), registry.elements, sensors, jobs)
+    noise = math.inf if setting.floor.value is None else setting.floor.value
+    refitter = Refitter(begun_together(searched, groups), registry.elements, sensors, jobs, noise=noise)
     watch = partial(_watch, progress, spec.name)
     pursuit, accused = find_causes(refitter, fit, causes, groups, setting, relevance, seed, watch)
     sound = {one.name: corrected(one, accused) for one in setting.train}

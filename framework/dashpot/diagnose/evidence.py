@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.contract.cause import Suspect
+from dashpot.diagnose.leftover import SIGNIFICANT
 from dashpot.diagnose.look import Look
 from dashpot.diagnose.refit import Refitter
 from dashpot.diagnose.score import Scores, Structure
@@ -156,7 +157,8 @@ def ends_at_one_value(refitter: Refitter, scores: Scores, number: int) -> bool:
     """Whether the measured force stays at its extreme, excursion after excursion, while the specimen's goes on.
 
     It stays there on the way out and on the way back: dry friction, which also ends at one value, leaves it when the
-    motion turns. A force that stays at zero is none either: a specimen that has lost contact does the same.
+    motion turns. Beyond the end of its range a channel shows nothing but noise. A force that stays at zero is none
+    either: a specimen that has lost contact does the same.
     """
     model = scores.look.model
     limits = {path.rpartition(".")[2]: slot for path, slot in _numbers(model).items() if path in model.owned[number]}
@@ -170,6 +172,8 @@ def ends_at_one_value(refitter: Refitter, scores: Scores, number: int) -> bool:
     for word, level in limits.items():
         side = 1.0 if word == "largest" else -1.0
         for run in refitter.runs:
+            if np.max(side * (run.force - level)) > SIGNIFICANT * refitter.noise:
+                return False
             beyond = side * (free[run.name] - level) > 0.0
             beyond[: run.first] = False
             peaks += int(np.sum(beyond[1:] & ~beyond[:-1]))

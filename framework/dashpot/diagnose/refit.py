@@ -65,6 +65,7 @@ class Kept:
 class Refitter:
     """What every refit needs: the training runs, the elements, and the data sheets of the force channel by run.
 
+    ``noise`` is the noise floor of the records in N, infinite where nothing tells it.
     ``written`` keeps the texts of structures, ``reduced`` columns that depend on the motion alone. ``missing`` says
     whether it is certain that something is missing in the diagnosed network.
     """
@@ -77,6 +78,7 @@ class Refitter:
     written: dict[tuple[frozenset[str], tuple[Term, ...]], Written] = field(default_factory=dict)
     reduced: Kept = field(default_factory=Kept)
     missing: bool = False
+    noise: float = np.inf
 
     @cached_property
     def sizes(self) -> Sizes:

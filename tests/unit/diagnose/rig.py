@@ -149,7 +149,7 @@ def bench(data: Dataset, text: str = NETWORK) -> Bench:
     """A network fitted to a dataset."""
     setting = prepare(data, 0)
     fit = fit_prepared(parse_network(text, REGISTRY.elements), setting, None, 0, 1, silent)
-    refitter = Refitter(setting.train, REGISTRY.elements)
+    refitter = Refitter(setting.train, REGISTRY.elements, noise=setting.floor.value or np.inf)
     groups = {run.name: run.cluster for run in data.runs}
     return Bench(setting, refitter, first_model(fit.declared, fit.fitted), groups, data)
 

@@ -50,6 +50,12 @@ def test_a_channel_at_the_end_of_its_range_is_proven():
     assert proven(dataset(lambda motion: np.minimum(plain(motion), 1500.0)), "clipping")
 
 
+def test_a_force_that_rises_beyond_the_level_is_not_clipped():
+    """It rises a third as fast: a specimen that yields."""
+    yielding = dataset(lambda motion: np.minimum(plain(motion), 1500.0 + (plain(motion) - 1500.0) / 3.0))
+    assert not proven(yielding, "clipping")
+
+
 def test_dry_friction_is_no_clipping():
     assert not proven(dataset(rubbing), "clipping")
 
