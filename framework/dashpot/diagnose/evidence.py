@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +15,8 @@ from dashpot.diagnose.refit import Refitter
 from dashpot.diagnose.score import Scores, Structure
 from dashpot.diagnose.table_rows import is_row
 from dashpot.diagnose.term import Given, Model, Term
+from dashpot.diagnose.view import ModelView
+from dashpot.fit.alike import repeated
 
 Array = NDArray[np.float64]
 
@@ -64,21 +67,80 @@ def same_in_all_runs(refitter: Refitter, scores: Scores, number: int) -> bool:
     """
     look = scores.look
     in_phase = _in_phase(refitter, look)
-    for weights, scatter in _by_group(look, number):
-        if scatter > AGREE or weights @ in_phase < 0.5 * weights.sum():
+    for one in _by_group(look, number):
+        if one.scatter > AGREE or one.weights @ in_phase < 0.5 * one.weights.sum():
             return False
-        if _suspect(look.model, number).measured and not _shows_frequency(refitter, look, weights):
+        if _suspect(look.model, number).measured and not _shows_frequency(refitter, look, one.weights):
             return False
     return True
 
 
 def follows_the_order(refitter: Refitter, scores: Scores, number: int) -> bool:
-    """Whether the force of each group of runs is off by the same for each run before it, whatever the motion is."""
-    return all(scatter <= AGREE for _, scatter in _by_group(scores.look, number))
+    """Whether the force of each group of runs is off by the same for each run before it, whatever motion and load are.
+
+    What a specimen loses from run to run, as by relaxation, is in proportion to its load: that has to be excluded.
+    Where runs were repeated later, the repeats have to show it.
+    """
+    look = scores.look
+    again = _missed_by_repeats(refitter, look.model, look.view)
+    [moved] = [_numbers(look.model)[path] for path in look.model.owned[number] if path in look.model.coordinates.paths]
+    loads = _loads(refitter, look)
+    each = _by_group(look, number)
+    return abs(again) <= AGREE * abs(moved) and all(one.scatter <= AGREE and not one.may_go_with(loads) for one in each)
 
 
-def _by_group(look: Look, number: int) -> Iterator[tuple[Array, float]]:
-    """For each number of a term how much each group (groups,) tells of it, and its scatter in parts of itself.
+def _loads(refitter: Refitter, look: Look) -> Array:
+    """The mean force of each fold (folds,) in N."""
+    found = np.zeros((2, len(look.folds.names)))
+    for run in refitter.runs:
+        at = list(look.folds.parts[run.name][1])
+        found[:, at] += np.array([[np.mean(run.force[run.first :])], [1.0]])
+    loads: Array = found[0] / np.maximum(found[1], 1.0)
+    return loads
+
+
+def _missed_by_repeats(refitter: Refitter, model: Model, view: ModelView) -> float:
+    """By how much the mean residual, N, of repeats grows from a run to the next; 0 where none was made later."""
+    forces, above, below = refitter.forces(model.fitted), 0.0, 0.0
+    for group in repeated(refitter.runs):
+        runs = [refitter.runs[k] for k in group]
+        rest = np.array([np.mean((run.force - forces[run.name])[run.first :]) for run in runs])
+        places = np.array([view.settings(run.name)["order"] for run in runs])
+        away = places - places.mean()
+        above, below = above + float(away @ rest), below + float(away @ away)
+    return above / below if below > 0.0 else 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class _InGroups:
+    """How much each group (groups,) tells of a number, how far it pulls it, and the scatter in parts of the number.
+
+    The number itself has a ``size`` in steps.
+    """
+
+    weights: Array
+    pulls: Array
+    size: float
+    scatter: float
+
+    def may_go_with(self, loads: Array) -> bool:
+        """Whether the number may be in proportion to ``loads`` (groups,): it is not where these differ by more than a
+        third (``AGREE``), and a 95 % interval excludes it.
+        """
+        told = self.weights > 0.0
+        weights, single, loads = self.weights[told], self.pulls[told] / self.weights[told] / self.size, loads[told]
+        if told.sum() < 3 or np.ptp(loads) <= AGREE * np.max(np.abs(loads)):
+            return True
+        away = loads / np.average(loads, weights=weights) - 1.0
+        spread = float(weights @ away**2)
+        slope = float(weights @ (away * single)) / spread
+        rest = single - np.average(single, weights=weights) - slope * away
+        error = np.sqrt(float(weights @ rest**2) / (told.sum() - 2) / spread)
+        return abs(slope - 1.0) < INTERVAL * error
+
+
+def _by_group(look: Look, number: int) -> Iterator[_InGroups]:
+    """For each number of a term what each group tells of it.
 
     One step of each group from what all share, less what noise makes of it; the laws are taken as they are.
     """
@@ -97,7 +159,7 @@ def _by_group(look: Look, number: int) -> Iterator[tuple[Array, float]]:
         pulls = np.einsum("i,gij,j->g", along, grams, rest)
         excess = float(np.sum(pulls**2 / np.maximum(weights, 1e-300) - squares)) / max(float(weights.sum()), 1e-300)
         size = _size_in_steps(look.model, path) * scale[column] / scale[0]
-        yield weights, float(np.sqrt(max(excess, 0.0)) / max(size, 1e-300))
+        yield _InGroups(weights, pulls, size, float(np.sqrt(max(excess, 0.0)) / max(abs(size), 1e-300)))
 
 
 def _shows_frequency(refitter: Refitter, look: Look, weights: Array) -> bool:
@@ -147,9 +209,9 @@ def _beside(gram: Array, column: int, others: NDArray[np.intp]) -> Array:
 
 
 def _size_in_steps(model: Model, path: str) -> float:
-    """A number of a model in natural steps of its coordinate."""
+    """A number of a model in natural steps of its coordinate, with its sign."""
     k = model.coordinates.paths.index(path)
-    size = 1.0 if model.coordinates.log[k] else abs(model.point[k])
+    size = 1.0 if model.coordinates.log[k] else model.point[k]
     return float(size / model.coordinates.unit[k])
 
 

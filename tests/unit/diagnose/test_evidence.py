@@ -116,6 +116,23 @@ def test_a_zero_that_jumps_once_does_not_move_with_the_order():
     assert not proven(dataset(law, motions=SESSION), "drift")
 
 
+def test_a_specimen_that_relaxes_from_run_to_run_is_no_drift():
+    """It loses 0.5 % of its load with each run: at 5, 8 and 11 mm of preload 5, 8 and 11 N."""
+
+    def law(motion):
+        return plain(motion) - 1e3 * motion.preload * PLACE[motion]
+
+    assert not proven(dataset(law, motions=SESSION), "drift")
+
+
+def test_a_force_that_moves_at_one_preload_only_may_be_that_of_the_specimen():
+    one = {
+        f"a{a}_f{f}": Motion(1e-3 * a, 8e-3, f) for a, f in [(2, 2.0), (1, 3.0), (3, 2.0), (1, 2.0), (3, 3.0), (2, 3.0)]
+    }
+    place = {motion: number for number, motion in enumerate(one.values())}
+    assert not proven(dataset(lambda motion: plain(motion) + 6.0 * place[motion], motions=one), "drift")
+
+
 def soft_fixture(motion, compliance=1e-6, damping=4e3):
     """Spring and dashpot behind a fixture of 1 kN/mm (n,) N: F + T dF/dt = (k x + d v) / (1 + k c)."""
     fine = np.linspace(0.0, TIME[-1], 10 * (TIME.size - 1) + 1)
