@@ -30,6 +30,7 @@ from dashpot.diagnose.single_runs import floor_of_corrected
 from dashpot.diagnose.table_rows import groups_of
 from dashpot.diagnose.term import Term
 from dashpot.fit.api import Setting, measure_errors
+from dashpot.fit.kept_curves import kept_curves
 from dashpot.fit.objective import as_simulated
 from dashpot.fit.result import Errors, FitResult
 from dashpot.fit.scored import ScoredRun
@@ -94,11 +95,18 @@ class Findings:
     def extended_name(self) -> str | None:
         """File name of the network that goes with the result, None where that is the diagnosed one as it was fitted.
 
-        Where nothing was added it is the network without the branches that may go, or fitted to corrected runs.
+        Where nothing was added it is the network without the branches that may go, or fitted to corrected runs, or with
+        the curves of the slow loop refined to all runs.
         """
         words = list(dict.fromkeys(term.word for term in self.pursuit.best.model.causes))
         words = words or ["reduced"] * bool(self.spare) or ["corrected"] * bool(self.accused)
+        words = words or ["refined"] * self._refined
         return f"{joined_name(self.model.name, words)}.yaml" if words else None
+
+    @cached_property
+    def _refined(self) -> bool:
+        """Whether curves that the fit keeps as the slow loop gives them follow the runs better when they are free."""
+        return bool(kept_curves(self.fit.fitted)) and self._trained < (1.0 - self.relevance) * self.before.train
 
     @property
     def spare(self) -> tuple[str, ...]:
@@ -146,9 +154,8 @@ class Findings:
             "predecessor": self.model.name,
         }
         sure = {term.title: standing_of(self.presence(term)) for term in self.pursuit.best.model.causes}
-        what = (
-            "extended by a diagnosis" if sure else "without what may go" if self.spare else "fitted to corrected runs"
-        )
+        plain = "fitted to corrected runs" if self.accused else "its curves refined to all runs"
+        what = "extended by a diagnosis" if sure else "without what may go" if self.spare else plain
         told = [f"{IN_FILES[standing]}: {title}" for title, standing in sure.items()]
         head = [f"{self.model.name}, {what}.", *told]
         text = fill_numbers(self.pursuit.best.model.declared, self.final, record, self.fit.seen)

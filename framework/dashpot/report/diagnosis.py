@@ -150,8 +150,8 @@ def _key_figures(diagnosis: Json) -> list[tuple[str, str, str, str]]:
 
 def _lead(diagnosis: Json) -> str:
     model, extended = _name(diagnosis, "model"), diagnosis.get("extended_model")
-    how = "extended" if diagnosis["causes"] or not diagnosis.get("may_go") else "reduced"
-    done = f"was {how} to {extended}" if extended else "was left as it is"
+    how = "extended to" if diagnosis["causes"] else "reduced to" if diagnosis.get("may_go") else "fitted anew as"
+    done = f"was {how} {extended}" if extended else "was left as it is"
     origins = (grids.floor_origin(diagnosis), grids.explainable_origin(diagnosis))
     return " ".join(filter(None, [f"{headline(diagnosis)} {model} {done}.", *origins]))
 
