@@ -1,7 +1,8 @@
 """Is there structure left that no cause explains? Tests that name nothing.
 
 Questions to the whitened residual of the final model: does it correlate with a general set of functions of the
-motion and of single runs, do repeated runs agree about it, and is there a line in its spectrum?
+motion and of single runs, does its size follow the motion, do repeated runs agree about it, and is there a line in its
+spectrum?
 """
 
 from __future__ import annotations
@@ -61,6 +62,7 @@ def look_for_leftover(refitter: Refitter, look: Look, pairs: Sequence[tuple[str,
     tests = [
         _correlation(refitter, look, residual, free),
         _single_runs(refitter, look, residual),
+        _uneven(refitter, look, residual),
         _agreement(residual, pairs),
         line,
     ]
@@ -136,6 +138,43 @@ def _single_runs(refitter: Refitter, look: Look, residual: Mapping[str, Array]) 
     excess, (name, at) = whole - count, max(alone, key=lambda key: alone[key])
     score, size = excess / float(np.sqrt(2.0 * count)), float(np.sqrt(max(excess, 0.0) / samples))
     return Leftover(score, size, f"follows {name}", run=at)
+
+
+def _uneven(refitter: Refitter, look: Look, residual: Mapping[str, Array]) -> Leftover:
+    """Whether the size of the residual follows the motion, as that of a law does and that of noise does not.
+
+    The score test of Breusch and Pagan, studentised (Koenker, Journal of Econometrics 17 (1981) 107): squares of the
+    residual over those of deflection, velocity and acceleration.
+    """
+    found, names = [], list[str]()
+    for run in records(refitter.runs):
+        functions = _sizes(look.view, run.name)
+        names = list(functions)
+        rows = look.measured_noise.reduce(run.name, np.array([*functions.values()])[:, run.first :])
+        found.append(np.concatenate([rows, np.ones_like(rows[:1]), residual[run.name][None] ** 2]))
+    if not found:
+        return Leftover(0.0, 0.0, "has no size that could follow the motion")
+    whole = np.concatenate(found, axis=1)
+    rows, squares, samples = whole[:-1], whole[-1], whole.shape[1]
+    away = squares - squares.mean()
+    fitted = np.linalg.lstsq(rows.T, away, rcond=1e-9)[0] @ rows
+    variance = max(float(np.var(squares)), 1e-300)
+    excess = float(fitted @ fitted) / variance - len(names)
+    alone = [abs(np.corrcoef(row, away)[0, 1]) for row in rows[:-1]]
+    follows = np.sqrt(max(excess, 0.0) * variance / samples)  # the deviation of what follows the motion
+    size = float(np.sqrt(follows / max(float(squares.mean()), 1e-300)))
+    return Leftover(excess / float(np.sqrt(2.0 * len(names))), size, f"grows with {names[int(np.argmax(alone))]}")
+
+
+def _sizes(view: ModelView, run: str) -> dict[str, Array]:
+    """The squares (n,) of what moves a run, by name."""
+    x, v = view.displacement(run), view.velocity(run)
+    moved = {
+        "the deflection from the middle of the run": x - np.mean(x),
+        "the velocity": v,
+        "the acceleration": np.gradient(v, view.step(run)),
+    }
+    return {name: (signal / max(float(np.std(signal)), 1e-300)) ** 2 for name, signal in moved.items()}
 
 
 def _agreement(white: Mapping[str, Array], pairs: Sequence[tuple[str, str]]) -> Leftover:

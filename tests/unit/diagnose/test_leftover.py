@@ -67,6 +67,21 @@ def test_structure_is_told_of_all_runs_and_not_of_the_repeated_ones_alone():
     assert found.share == pytest.approx(squares[0] / squares[1], abs=0.1)
 
 
+@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize(("share", "told"), [(0.0, False), (0.02, True)])
+def test_a_residual_that_grows_with_the_deflection_is_no_noise(seed, share, told):
+    """A stiffness that swings in its own time by 2 % has no course that any function of the motion follows."""
+    swing = {name: 1.0 + share * coloured(50 * seed + k, 1.0, 0.9) for k, name in enumerate(MOTIONS)}
+    about = {name: 200e3 * (motion.x() - motion.preload) for name, motion in MOTIONS.items()}
+    fault = {name: lambda force, name=name: force + (swing[name] - 1.0) * about[name] for name in MOTIONS}
+    made = bench(dataset(seed=seed, fault=fault))
+    look = look_at(made.refitter, made.model, causes("friction"), folds_of(made.refitter.runs, made.groups))
+    found = look_for_leftover(made.refitter, look, [])
+    assert found.notable() is told
+    if told:
+        assert found.what == "grows with the deflection from the middle of the run"
+
+
 def test_an_undriven_line_is_no_noise_though_repeats_differ_by_it():
     """A pump at 37 Hz, of its own phase in every run: the noise floor from repeats holds it."""
     phases = {name: 1.0 + number for number, name in enumerate([*MOTIONS, *AGAIN])}
