@@ -29,8 +29,9 @@ def unlike(outcome: Outcome) -> dict[str, tuple[float, float | None]]:
 
 
 def accused(outcome: Outcome, known: Iterable[str] = ()) -> list[str]:
-    """The faults of the measurement that were named, or called probable, and that their owners do not know of."""
-    named = [cause["cause"] for cause in outcome.causes if cause["class"] == "measurement"]
+    """The faults of the measurement that are in the files, however sure, and that their owners do not know of."""
+    told = [*outcome.causes, *outcome.resembled]
+    named = [cause["cause"] for cause in told if cause["class"] == "measurement"]
     return [word for word in [*named, *(fault["kind"] for fault in outcome.faults)] if word not in known]
 
 

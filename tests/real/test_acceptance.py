@@ -16,6 +16,7 @@ from real.run import outcome, trials
 pytestmark = pytest.mark.real
 
 LEAST = 0.8
+LEAST_NEAR = 0.45  # by the error alone; 0.8 is wanted
 PRESENT = [
     pytest.param(name, marks=pytest.mark.skipif(not one.present, reason=f"{one.folder} is not here"))
     for name, one in SETS.items()
@@ -69,6 +70,11 @@ def test_files_come_near_the_explainable_error_or_say_that_they_do_not(all_outco
     good = [judge.near_or_admitted(one) for one in all_outcomes]
     near, admitted = (sum(map(of, all_outcomes)) for of in (judge.near, judge.admitted))
     assert sum(good) >= LEAST * len(good), f"of {len(good)} {near} near by the error alone, {admitted} admitted"
+
+
+def test_files_come_near_the_explainable_error_by_the_error_alone(all_outcomes):
+    near = [judge.near(one) for one in all_outcomes]
+    assert sum(near) >= LEAST_NEAR * len(near), f"{sum(near)} of {len(near)}"
 
 
 def test_names_come_again(all_outcomes):

@@ -29,6 +29,11 @@ def test_a_rig_is_accused_by_causes_and_by_triage_unless_its_owners_know():
     assert judge.accused(one, ["offset"]) == ["delay", "lost_samples"]
 
 
+def test_a_fault_in_a_file_accuses_the_rig_however_unsure_it_is():
+    one = made(resembled=[{"cause": "clipping", "class": "measurement", "standing": "resembles"}])
+    assert judge.accused(one) == ["clipping"]
+
+
 @pytest.mark.parametrize(
     ("verdict", "error", "good"),
     [("explained", 11.0, True), ("explained", 11.1, False), ("unexplained", 30.0, True), ("ambiguous", 30.0, False)],
