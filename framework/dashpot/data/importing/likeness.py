@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from dashpot.data.importing.counters import without_counters
 from dashpot.data.importing.finding import Finding, Level
 from dashpot.data.importing.names import differ
 from dashpot.data.repeats import NotRepeatsError, compare_repeats
@@ -16,6 +17,7 @@ from dashpot.data.repeats import NotRepeatsError, compare_repeats
 _ALIKE, _ALIKE_BY_NAME = 0.05, 0.3
 # of a level: 6 K of a temperature, a twentieth of a bar beside two; more without a unit, as 2 of 20 may be degC
 _SAME_LEVEL, _SAME_NUMBER = 0.02, 0.1
+_BY_NAME = "condition in its name"
 _AGAIN = re.compile(
     r"(.+?)[ _.-]*(?:[b-e]|[2-9]|r\d|rep\w*\d*|rerun\d*|wdh\d*|wiederholung\d*|copy|kopie|\(\d\))", re.I
 )
@@ -25,7 +27,8 @@ _AGAIN = re.compile(
 class Likeness:
     """Run -> the earlier run that it repeats; run -> the earlier one that it is a copy of, to the last digit.
 
-    ``apart``: run -> what was measured beside it and differs from an earlier run of the same motion and force.
+    ``apart``: run -> what its name tells or was measured beside it, other than in an earlier run of the same motion and
+    force.
     """
 
     repeats: Mapping[str, str]
@@ -39,15 +42,18 @@ def find_repeats(findings: Mapping[str, Finding]) -> Likeness:
     copies: dict[str, str] = {}
     apart: dict[str, tuple[str, ...]] = {}
     names = list(findings)
+    told = without_counters(names)
     for index, name in enumerate(names):
         for earlier in names[:index]:
             if earlier in repeats or earlier in copies or not _comparable(findings[earlier], findings[name]):
                 continue
             difference = _difference(findings[earlier], findings[name])
-            if difference >= (_ALIKE_BY_NAME if _is_again(name, earlier) else _ALIKE):
+            otherwise = told[name] != told[earlier]
+            if difference >= (_ALIKE_BY_NAME if not otherwise and _is_again(name, earlier) else _ALIKE):
                 continue
-            if other := _at_other_levels(findings[earlier].levels, findings[name].levels):
-                apart[name] = other
+            other = _at_other_levels(findings[earlier].levels, findings[name].levels)
+            if other or (otherwise and difference):
+                apart[name] = (*other, *([_BY_NAME] if otherwise else []))
                 continue
             (repeats if difference else copies)[name] = earlier
             apart.pop(name, None)
