@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from itertools import permutations
+
 import numpy as np
 import pytest
 from unit.data.tables import Tables
@@ -98,6 +100,56 @@ def test_a_second_column_in_millimetres_that_explains_the_force_as_well_is_asked
     displacement, _, confirm = found_in(columns, {"ch 1": "mm", "ch 2": "mm", "ch 3": "N"})
     other = {"ch 1": "ch 2", "ch 2": "ch 1"}[displacement[0]]
     assert any(f"'{other}' may be the displacement, too" in remark for remark in confirm)
+
+
+def rubbing():
+    """What a friction rig records: normal force in N, way in mm, friction in N and its volts."""
+    way = 5.0 * SINE
+    rate = np.gradient(way, STEP)
+    friction = 12.0 * np.tanh(rate / 2.0) + 0.5 * way
+    signals = {"normal": 40.0 + np.abs(np.sin(3.0 * TIME)), "way": way, "volts": friction / 100.0, "friction": friction}
+    return {name: noisy(signal, seed, 1e-3) for seed, (name, signal) in enumerate(signals.items())}
+
+
+@pytest.mark.parametrize("letters", ["abcd", "ABCD"])
+@pytest.mark.parametrize("order", list(permutations(range(4))))
+def test_letters_in_order_are_places_and_no_symbols(letters, order):
+    signals = rubbing()
+    names = {list(signals)[index]: letter for index, letter in zip(order, letters, strict=True)}
+    columns = {names[name]: signals[name] for name in sorted(names, key=lambda name: names[name])}
+    found = find_all(Table({"t": TIME, **columns}, {"t": "s"}))
+    told = {channel: each.role.column for channel, each in found.channels.items()}
+    assert told == {"displacement": names["way"], "force": names["friction"]}
+    assert all(any(f"column '{name}' is taken for" in remark for remark in found.confirm) for name in told.values())
+
+
+@pytest.mark.parametrize("letter", ["d", "u", "s", "x"])
+def test_a_letter_does_not_outvote_how_the_columns_move(letter):
+    """The column called as a displacement is the friction, which does not tell the way."""
+    signals = rubbing()
+    displacement, force, confirm = found_in({"1": signals["way"], letter: signals["friction"], "2": signals["normal"]})
+    assert (displacement[0], force[0]) == ("1", letter)
+    assert "column '1' is taken for the displacement by how it moves" in confirm
+    assert f"the displacement may be '{letter}' after the names as well as '1': which is it?" in confirm
+
+
+def test_a_letter_for_a_force_does_not_outvote_how_the_columns_move():
+    signals = rubbing()
+    displacement, force, confirm = found_in({"Weg": signals["way"], "f": signals["normal"], "2": signals["friction"]})
+    assert (displacement[0], force[0]) == ("Weg", "2")
+    assert "the force may be 'f' after the names as well as '2': which is it?" in confirm
+
+
+@pytest.mark.parametrize("law", [mount, slider])
+@pytest.mark.parametrize("names", [("x", "F"), ("s", "F"), ("x", "ch 1"), ("d", "ch 1")])
+@pytest.mark.parametrize("share", [0.0, 0.01])
+def test_letters_that_are_symbols_name_their_channels(law, names, share):
+    way = 5.0 * SINE
+    rate = np.gradient(way, STEP)
+    columns = {"v": noisy(rate, 3, share), names[0]: noisy(way, 1, 0.1 * share), names[1]: noisy(law(way), 2, share)}
+    displacement, force, confirm = found_in({**columns, "T": RAMP})
+    assert (displacement[0], force[0]) == names
+    assert not any(f"'{names[0]}' is taken for" in remark for remark in confirm)
 
 
 def imported(folder, tables):

@@ -9,8 +9,9 @@ import numpy as np
 
 from dashpot.data.channel import CHANNEL_UNITS
 from dashpot.data.excitation import MOVING
+from dashpot.data.importing.letters import beside, symbols, weighed_roles
 from dashpot.data.importing.motion import Motion, find_motion
-from dashpot.data.importing.roles import GUESSED, Role, is_counter, motion_roles, named_roles
+from dashpot.data.importing.roles import GUESSED, Role, is_counter, named_roles
 from dashpot.data.importing.rows import numeric, of_one_length, usable_rows, without_filling
 from dashpot.data.importing.signs import falls, find_signs
 from dashpot.data.importing.timing import Timing, find_timing
@@ -90,13 +91,13 @@ def find_all(
     """
     every = of_one_length({name: numeric(values) for name, values in table.columns.items()})
     columns = {name: values for name, values in every.items() if np.isfinite(values).mean() > 0.5}
-    roles = named_roles(list(columns), table.units)
+    roles = symbols(named_roles(list(columns), table.units), list(columns))
     time = None if sampling else roles.pop("time", None)
     timing = find_timing(_filled(columns), table.units, sampling or table.sampling, time)
     others = {name: values for name, values in _filled(columns).items() if name != timing.column}
     roles = {channel: role for channel, role in roles.items() if channel != "time"}
     sure = known is not None and all(role.column in columns for role in known.values())
-    roles = {**roles, **(known or {})} if sure else motion_roles(_moving(others), roles, timing.step)
+    roles = beside(roles, known or {}) if sure else weighed_roles(_moving(others), roles, timing.step)
     chosen = _chosen(roles, columns)
     needed = [columns[name] for name in (timing.column, *(role.column for role in chosen.values())) if name is not None]
     rows = usable_rows(needed) if needed else (0, _length(columns))

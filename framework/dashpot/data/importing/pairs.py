@@ -12,6 +12,8 @@ from dashpot.data.importing.signs import falls, find_signs
 
 # from this correlation on two columns are one signal
 SAME = 0.9995
+# a motion explains a force from this share of its variance on
+MOSTLY = 0.5
 _SAMPLES = 4000
 # a testing machine of class 1 after ISO 7500-1 may make so wide a loop of a force without any
 _THIN = 0.015
@@ -67,18 +69,25 @@ def best_pair(columns: Mapping[str, np.ndarray], displacements: Sequence[str], f
         for second in forces:
             if first != second and not is_like(columns[first], columns[second]):
                 share = explained(columns[first], columns[second])
-                found[first, second] = share > 0.5 and loses_work(columns[first], columns[second]), share
+                found[first, second] = share > MOSTLY and loses_work(columns[first], columns[second]), share
     if not found:
         return None
     first, second = max(found, key=lambda pair: found[pair])
     lossy, share = found[first, second]
-    as_good = [pair for pair, (also, another) in found.items() if also == lossy and another >= share - (1.0 - share)]
+    as_good = [
+        pair for pair, (also, another) in found.items() if also == lossy and not is_clearly_better(share, another)
+    ]
     rivals = tuple(other for one, other in as_good if one == first and other != second)
     # copies of the displacement differ in their unit only
     others = tuple(
         one for one, other in as_good if other == second and one != first and not is_like(columns[one], columns[first])
     )
     return Pair(first, second, share, rivals, others)
+
+
+def is_clearly_better(share: float, another: float) -> bool:
+    """Whether what one motion leaves of a force is less than half of what another one leaves."""
+    return another < share - (1.0 - share)
 
 
 def likely_displacements(columns: Mapping[str, np.ndarray]) -> list[str]:
@@ -109,7 +118,7 @@ def _way(motion: np.ndarray, force: np.ndarray) -> tuple[float, float, bool] | N
     share = explained(motion, force)
     first, second, _ = find_signs(motion, force)
     signed = first * motion, second * force
-    if share < 0.5 or _lost(*signed) < _THIN or falls(*signed):
+    if share < MOSTLY or _lost(*signed) < _THIN or falls(*signed):
         return None
     return share - explained(force, motion), share, first == second
 
