@@ -446,6 +446,29 @@ def test_a_run_with_the_force_turned_gets_its_own_sign_where_it_stands(tmp_path)
     assert text.count("sign: -1") == 2 and text.index("name: r2") < text.index("sign: -1}") < text.index("name: r3")
 
 
+def test_a_stiff_run_with_the_force_turned_gets_its_own_sign(tmp_path):
+    """Its losses are a fourteenth of its force: it falls, and work would be given back."""
+    motions = {k: k * np.sin(2 * np.pi * 1.5 * TIME) for k in (1, 2, 3)}
+    forces = {k: (-1 if k == 2 else 1) * noisy(kelvin_voigt(motion, damping=1.5e3), k) for k, motion in motions.items()}
+    found = imported(tmp_path, {f"r{k}.tab": record(motions[k], forces[k]) for k in motions})
+    assert [channels(found, k)["force"][1] for k in range(3)] == [1, -1, 1]
+    assert [runs for remark, runs in found.confirm.items() if "sign is turned" in remark] == [("r2",)]
+    text = dataset_text(found, tmp_path, "rig")
+    assert text.count("unit: N, sign: -1}   # CONFIRM: the sign") == 1
+
+
+@pytest.mark.parametrize("mass", [0.0, 2000.0])
+def test_a_force_that_falls_in_one_run_alone_is_to_be_confirmed(tmp_path, mass):
+    """A run without losses may be turned; one whose mass outweighs the spring falls with its losses as they are."""
+    motions = {k: k * np.sin(2 * np.pi * (3 if k == 2 else 1) * TIME) for k in (1, 2, 3)}
+    forces = {k: kelvin_voigt(motion, damping=20.0 if mass else 0.0) for k, motion in motions.items()}
+    forces[2] = forces[2] - (mass * 2e-3 * (6 * np.pi) ** 2 * np.sin(6 * np.pi * TIME) if mass else 2 * forces[2])
+    found = imported(tmp_path, {f"r{k}.tab": record(motions[k], forces[k]) for k in motions})
+    assert [channels(found, k)["force"][1] for k in range(3)] == [1, 1, 1]
+    told = [runs for remark, runs in found.confirm.items() if "falls where the deflection grows, other than" in remark]
+    assert told == [("r2",)]
+
+
 @pytest.mark.parametrize(
     ("name", "stated"),
     [

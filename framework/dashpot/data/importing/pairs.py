@@ -8,15 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from dashpot.data.importing.correlation import correlation
-from dashpot.data.importing.signs import falls, find_signs
+from dashpot.data.importing.signs import THIN, falls, find_signs, lost_work
 
 # from this correlation on two columns are one signal
 SAME = 0.9995
 # a motion explains a force from this share of its variance on
 MOSTLY = 0.5
 _SAMPLES = 4000
-# a testing machine of class 1 after ISO 7500-1 may make so wide a loop of a force without any
-_THIN = 0.015
 # from this rank correlation with the time on
 _WITH_CLOCK = 0.9
 
@@ -48,14 +46,7 @@ def explained(motion: np.ndarray, force: np.ndarray) -> float:
 
 def loses_work(motion: np.ndarray, force: np.ndarray) -> bool:
     """Whether a force makes a loop over the motion that is wider than a machine may feign, whichever way round."""
-    return abs(_lost(motion, force)) > _THIN
-
-
-def _lost(motion: np.ndarray, force: np.ndarray) -> float:
-    """The work that a force loses over a motion, as a part of all that is moved; below 0 where it is given back."""
-    way, middle = np.diff(motion), _middle(force - np.mean(force))
-    moved = float(np.sum(np.abs(middle * way)))
-    return float(middle @ way) / moved if moved > 0.0 else 0.0
+    return abs(lost_work(motion, force)) > THIN
 
 
 def best_pair(columns: Mapping[str, np.ndarray], displacements: Sequence[str], forces: Sequence[str]) -> Pair | None:
@@ -118,7 +109,7 @@ def _way(motion: np.ndarray, force: np.ndarray) -> tuple[float, float, bool] | N
     share = explained(motion, force)
     first, second, _ = find_signs(motion, force)
     signed = first * motion, second * force
-    if share < MOSTLY or _lost(*signed) < _THIN or falls(*signed):
+    if share < MOSTLY or lost_work(*signed) < THIN or falls(*signed):
         return None
     return share - explained(force, motion), share, first == second
 
@@ -142,7 +133,3 @@ def is_like_any(values: np.ndarray, others: Iterable[np.ndarray]) -> bool:
 def _scaled(values: np.ndarray) -> np.ndarray:
     spread = float(np.std(values))
     return (values - np.mean(values)) / spread if spread > 0.0 else np.zeros_like(values)
-
-
-def _middle(values: np.ndarray) -> np.ndarray:
-    return 0.5 * (values[1:] + values[:-1])

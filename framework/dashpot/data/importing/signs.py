@@ -7,7 +7,14 @@ import numpy as np
 from dashpot.data.importing.correlation import correlation
 
 _CLEAR, _PRESSED = 0.1, 0.5
+# a testing machine of class 1 after ISO 7500-1 may make so wide a loop of a force without any
+THIN = 0.015
 _PULLS = "the force pulls nearly all the time: compression seems to count negative here"
+_TURNED = "work would be given back, other than in most runs: the sign is turned here"
+_OTHERWISE = (
+    "the force falls where the deflection grows, other than in most runs: either a mass outweighs the stiffness, or "
+    "the sign of this run is another one"
+)
 _WHY = {
     (1, 1): "",
     (1, -1): "the force points against the motion as if work were given back: its sign is turned",
@@ -23,18 +30,28 @@ def find_signs(
 
     Raw numbers of both (n,). The force goes with the velocity, as work is lost, else with the displacement. A force
     that nearly always pulls is taken for one whose tension counts positive. `common` are the signs of most runs: a run
-    that clearly loses work only with another one gets a sign of its own.
+    that loses work only with another one gets a sign of its own, if that is clear or the force falls besides.
     """
     loss, slope = correlation(np.gradient(displacement), force), correlation(displacement, force)
     opposed = loss < 0 if abs(loss) > _CLEAR else slope < 0
     sign = -1 if opposed else 1
     if common is not None:
-        if sign != common[0] * common[1] and abs(loss) > _CLEAR:
-            return common[0], -common[1], "work would be given back, other than in most runs: the sign is turned here"
-        return *common, _WHY[common]
+        turned = sign != common[0] * common[1]
+        lost = common[0] * common[1] * lost_work(displacement, force)
+        if turned and (abs(loss) > _CLEAR or lost < -THIN):
+            return common[0], -common[1], _TURNED
+        return *common, _OTHERWISE if turned and abs(slope) > _CLEAR and lost < THIN else _WHY[common]
     if np.mean(sign * force) < -_PRESSED * np.max(np.abs(force)):
         return -1, -sign, _WHY[-1, -sign]
     return (1, -1, _WHY[1, -1]) if opposed else (1, 1, "")
+
+
+def lost_work(motion: np.ndarray, force: np.ndarray) -> float:
+    """The work that a force loses over a motion, as a part of all that is moved; below 0 where it is given back."""
+    way, middle = np.diff(motion), force - np.mean(force)
+    middle = 0.5 * (middle[1:] + middle[:-1])
+    moved = float(np.sum(np.abs(middle * way)))
+    return float(middle @ way) / moved if moved > 0.0 else 0.0
 
 
 def falls(displacement: np.ndarray, force: np.ndarray) -> bool:
