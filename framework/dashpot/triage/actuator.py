@@ -8,6 +8,7 @@ import numpy as np
 
 from dashpot.data.run import Run
 from dashpot.data.tracking import track
+from dashpot.data.triangles import is_triangle
 from dashpot.text.problem import RUNS_ALIKE
 
 NOTABLE = 0.05
@@ -18,8 +19,13 @@ def actuator_remarks(runs: Sequence[Run]) -> list[str]:
     """A remark for each run where a harmonic of the displacement exceeds 5 % of the motion; one for many of them.
 
     The measured motion drives the model, so this is no fault; but harmonics of the force are then not the specimen's.
+    The harmonics of a triangle are prescribed: nothing is said of them.
     """
-    found = {run.name: largest for run in runs if (largest := _largest(run)) and largest[1] > NOTABLE}
+    found = {
+        run.name: largest
+        for run in runs
+        if (largest := _largest(run)) and largest[1] > NOTABLE and not is_triangle(run.displacement)
+    }
     if len(found) < RUNS_ALIKE:
         return [f"Run '{name}': {_told(*largest)}" for name, largest in found.items()]
     which = f"All {len(found)} runs" if len(found) == len(runs) else f"{len(found)} of {len(runs)} runs"

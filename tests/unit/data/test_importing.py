@@ -198,6 +198,34 @@ def test_a_motion_tells_its_kind_and_settings(motion, step, kind, settings):
         assert found.settings[key] == pytest.approx(value, rel=0.03)
 
 
+def triangle(amplitude, period, middle=0.0):
+    """From the middle up, at constant speed; in m, of 10 s."""
+    phase = TIME / period + 0.25
+    return middle + amplitude * (1.0 - 4.0 * np.abs(phase % 1.0 - 0.5))
+
+
+@pytest.mark.parametrize("cycles", [1.25, 2.0, 5.0, 12.0])
+@pytest.mark.parametrize(("slowness", "kind"), [(1.0, "transient"), (10.0, "quasi_static")])
+def test_a_triangle_is_no_sine_and_has_its_own_amplitude(cycles, slowness, kind):
+    """Of 0.8 s to 8 s a cycle, and of ten times as long."""
+    scatter = 1e-5 * np.random.default_rng(7).standard_normal(TIME.size)
+    found = find_motion(triangle(4e-3, 10.0 / cycles, 0.01) + scatter, slowness * STEP)
+    assert found.kind == (kind if cycles > 2.0 else "quasi_static")
+    assert found.settings == {"amplitude": pytest.approx(4e-3, rel=0.01), "preload": pytest.approx(0.01, rel=0.01)}
+
+
+def test_a_triangle_of_growing_strokes_has_no_amplitude():
+    found = find_motion(triangle(1e-3, 1.0) * np.ceil(TIME / 2.0), 10 * STEP)
+    assert (found.kind, dict(found.settings)) == ("quasi_static", {})
+
+
+@pytest.mark.parametrize("cycles", [1.5, 2.0, 2.5, 4.0, 5.0])
+def test_the_cycles_of_a_short_sine_are_all_counted(cycles):
+    found = find_motion(2e-3 * np.sin(2 * np.pi * cycles / 5.0 * TIME[:2500]), STEP)
+    assert found.kind == "harmonic"
+    assert found.settings["frequency"] == pytest.approx(cycles / 5.0, rel=0.01)
+
+
 # --- whole folders -------------------------------------------------------------------------------------------------
 
 

@@ -156,6 +156,18 @@ def test_harmonics_of_the_actuator_are_remarked():
         assert [text.partition(",")[0] for text in said] == [expected] * (share > 0.0)
 
 
+@pytest.mark.parametrize("round_", [0.0, 0.1])
+def test_the_harmonics_of_a_triangle_are_not_those_of_the_actuator(round_, rng):
+    """The third one is a ninth of the motion; sharp, and with a tenth of each stroke round at the turns."""
+    phase = 5.0 * TIME
+    x = 1e-3 * (1.0 - 4.0 * np.abs(phase % 1.0 - 0.5))
+    width = int(round_ * 100) + 1
+    x = np.convolve(x, np.full(width, 1.0 / width), "same") + 2e-6 * rng.standard_normal(TIME.size)
+    x = x[100:-100]
+    said = Run("a", "harmonic", TIME[: x.size], {"displacement": x, "force": 2e5 * x})
+    assert actuator_remarks([said]) == []
+
+
 def test_harmonics_of_the_actuator_in_many_runs_are_one_remark():
     """Of 8, 12 and 10 % of the motion, and none."""
     phase, runs = 2.0 * np.pi * 5.0 * TIME, []

@@ -7,7 +7,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-_FEW_CYCLES, _SLOW_CYCLE = 3.5, 4.0
+from dashpot.data.reversals import turning_points
+from dashpot.data.triangles import TURNS, is_triangle
+
+_FEW_CYCLES, _SLOW_CYCLE = 4.0, 4.0
 _EVEN, _SMOOTH, _SWEPT = 0.05, 0.25, 1.5
 _TWICE = 1.9  # periods of a record that may show that a motion comes again
 _SAME_COURSE, _ENDS = 0.1, 3  # of frequencies over time, as a share; half periods at either end
@@ -26,17 +29,21 @@ def find_motion(displacement: np.ndarray, step: float) -> Motion:
     span = float(np.ptp(displacement))
     if span == 0 or _rests(displacement, span):
         return Motion("hold", {"preload": float(np.median(displacement))})
-    cycles = len(_turns(displacement, 0.25 * span)) / 2
-    if cycles <= _FEW_CYCLES and len(displacement) * step / max(cycles, 1.0) >= _SLOW_CYCLE:
+    large = turning_points(displacement, 0.25 * span)
+    slow = _period(large, len(displacement)) * step >= _SLOW_CYCLE
+    places = turning_points(displacement, TURNS * span)
+    if is_triangle(displacement):
+        return Motion("quasi_static" if slow else "transient", _of_triangle(displacement[places]))
+    few = len(large) / 2 <= _FEW_CYCLES
+    if few and slow:
         return Motion("quasi_static", {})
-    places = _turns(displacement, 0.1 * span)
-    turns = step * places
-    if cycles <= _FEW_CYCLES:
-        kind = "harmonic" if _comes_again(displacement, places, _EVEN * span) else "transient"
-        return Motion(kind, _settings(kind, displacement, turns, step))
-    # from turn to the next but one: up and down need not take the same time
-    kind = _kind_of(_without_ends(turns[2:] - turns[:-2]))
-    return Motion(kind, _settings(kind, displacement, turns, step))
+    if few:
+        again = _comes_again(displacement, places, _EVEN * span) or _is_sine(displacement, places, _EVEN * span)
+        kind = "harmonic" if again else "transient"
+    else:
+        # from turn to the next but one: up and down need not take the same time
+        kind = _kind_of(_without_ends(step * (places[2:] - places[:-2])))
+    return Motion(kind, _settings(kind, displacement, step * places, step))
 
 
 def _rests(displacement: np.ndarray, span: float) -> bool:
@@ -44,32 +51,28 @@ def _rests(displacement: np.ndarray, span: float) -> bool:
     return bool(np.ptp(displacement[len(displacement) // 5 :]) < 0.05 * span)
 
 
-def _turns(signal: np.ndarray, threshold: float) -> np.ndarray:
-    """The samples at which a signal turns round and then goes back by more than the threshold."""
-    turns: list[int] = []
-    top = bottom = 0
-    rising = True
-    for index, value in enumerate(signal.tolist()):
-        if value > signal[top]:
-            top = index
-        if value < signal[bottom]:
-            bottom = index
-        if rising and value < signal[top] - threshold:
-            turns.append(top)
-            rising, bottom = False, index
-        elif not rising and value > signal[bottom] + threshold:
-            turns.append(bottom)
-            rising, top = True, index
-    return np.array(turns[1:], dtype=int)
+def _period(turns: np.ndarray, samples: int) -> float:
+    """The samples of a cycle after its turns; all of them where these tell no half of one."""
+    return 2.0 * float(turns[-1] - turns[0]) / (len(turns) - 1) if len(turns) > 1 else float(samples)
 
 
 def _comes_again(displacement: np.ndarray, turns: np.ndarray, most: float) -> bool:
     """Whether a motion of about two cycles or more is the same a period later, to ``most`` as a root mean square."""
     if len(turns) < 2:
         return False
-    period = round(2.0 * (turns[-1] - turns[0]) / (len(turns) - 1))
+    period = round(_period(turns, len(displacement)))
     later = displacement[period:] - displacement[:-period]
     return bool(len(displacement) >= _TWICE * period and np.sqrt(np.mean(later**2)) < most)
+
+
+def _is_sine(displacement: np.ndarray, turns: np.ndarray, most: float) -> bool:
+    """Whether a sine departs from a motion of a cycle or more between its turns by less than ``most``, as above."""
+    if len(turns) < 3:
+        return False
+    phase = 2.0 * np.pi / _period(turns, len(displacement)) * np.arange(len(displacement))
+    basis = np.stack([np.ones_like(phase), np.sin(phase), np.cos(phase)], axis=1)
+    rest = displacement - basis @ np.linalg.lstsq(basis, displacement, rcond=None)[0]
+    return bool(np.sqrt(np.mean(rest**2)) < most)
 
 
 def _without_ends(periods: np.ndarray) -> np.ndarray:
@@ -107,6 +110,14 @@ def _settings(kind: str, displacement: np.ndarray, turns: np.ndarray, step: floa
         start, stop = _swept(turns, step * len(displacement))
         return {**settings, "start": start, "stop": stop}
     return {"preload": settings["preload"]} if kind == "random" else {}
+
+
+def _of_triangle(turns: np.ndarray) -> dict[str, float]:
+    """Amplitude and preload of a triangle that turns at these places (n,) m; none where its strokes differ."""
+    strokes, middles = np.abs(np.diff(turns)), 0.5 * (turns[1:] + turns[:-1])
+    if np.ptp(strokes) > _EVEN * np.median(strokes):
+        return {}
+    return {"amplitude": 0.5 * float(np.median(strokes)), "preload": float(np.median(middles))}
 
 
 def _swept(turns: np.ndarray, duration: float) -> tuple[float, float]:
