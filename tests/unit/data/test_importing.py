@@ -580,6 +580,18 @@ def test_of_runs_at_other_rates_only_the_slowest_is_quasi_static(tmp_path):
     }
 
 
+def test_the_noise_of_a_sensor_makes_no_run_fast(tmp_path):
+    """Two sines of 20 s, one of a thirteenth of the stroke: from sample to sample its sensor goes farther than it."""
+    tables = {}
+    for name, amplitude in (("large", 4.0), ("small", 0.3)):
+        motion = amplitude * np.sin(2 * np.pi * 0.1 * TIME)
+        scatter = 1.5e-3 * np.random.default_rng(11).standard_normal(TIME.size)
+        columns = {"t": 2.0 * TIME, "x": motion + scatter, "F": kelvin_voigt(motion)}
+        tables[f"{name}.tab"] = Table(columns, {"t": "s", "x": "mm", "F": "N"})
+        assert np.mean(np.abs(np.diff(scatter))) > 2.0 * 0.3 * np.mean(np.abs(np.diff(motion / amplitude)))
+    assert [run.finding.kind for run in imported(tmp_path, tables).runs] == ["quasi_static", "quasi_static"]
+
+
 def beside(column, level, unit="", noise=0.0, seed=0):
     """A run of the same spring and dashpot with a further column about a level."""
     motion = 10 + chirp(1, 20)

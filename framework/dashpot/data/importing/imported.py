@@ -21,7 +21,9 @@ from dashpot.data.importing.rows import numeric
 from dashpot.data.importing.stiffness import StiffnessFound, find_stiffness
 from dashpot.data.importing.timing import pieces
 from dashpot.data.importing.units import GUESSED
+from dashpot.data.reversals import strokes
 from dashpot.data.table import FileReader, Table
+from dashpot.data.triangles import TURNS
 from dashpot.text.problem import Problem
 
 # rates of tests are set apart by no less than this
@@ -270,9 +272,10 @@ def _slow_ones(findings: Mapping[str, Finding]) -> dict[str, Finding]:
 
 
 def _rate(finding: Finding) -> float:
-    """The mean speed over the stroke, in 1/s."""
+    """The mean speed from turn to turn over the stroke, in 1/s: what a sensor scatters by is no way."""
     x = finding.signals["displacement"]
-    return float(np.mean(np.abs(np.diff(x)))) / ((finding.timing.step or 1.0) * float(np.ptp(x)))
+    span = float(np.ptp(x))
+    return float(np.sum(strokes(x, TURNS * span))) / (span * len(x) * (finding.timing.step or 1.0))
 
 
 def _agree(parts: Mapping[str, _Part], sampling: float | None) -> dict[str, Finding]:
