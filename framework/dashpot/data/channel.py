@@ -46,6 +46,16 @@ class Channel:
     hum: tuple[Hum, ...] = ()
 
 
+def unit_meant(channel: str, written: str) -> str:
+    """The unit that a measured file means with what it writes: `g` and `G` of an acceleration are standard gravities.
+
+    Examples:
+        >>> unit_meant("acceleration@hub", "g"), unit_meant("force", "kN")
+        ('g0', 'kN')
+    """
+    return "g0" if channel.partition("@")[0] == "acceleration" and written in ("g", "G") else written
+
+
 def unit_of_channel(name: str) -> str | None:
     """The SI unit of a channel, None when its name does not say what is measured."""
     return CHANNEL_UNITS.get(name.partition("@")[0])

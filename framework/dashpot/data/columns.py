@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from dashpot.data.channel import Channel, unit_of_channel
+from dashpot.data.channel import Channel, unit_meant, unit_of_channel
 from dashpot.data.table import ReadingError, Table
 from dashpot.data.trouble import Trouble, Unusable, refuse
 from dashpot.text.quantity import base_unit, factor, is_unit
@@ -43,6 +43,7 @@ def read_si(table: Table, channel: Channel, column: str, rows: np.ndarray, accep
 
 
 def _to_si(stated: str | None, channel: Channel, column: str, trust_dataset: bool) -> tuple[float, float]:
+    stated = unit_meant(channel.name, stated) if stated else stated
     unit = channel.unit or stated
     if unit is None:
         return 1.0, 0.0

@@ -103,6 +103,10 @@ def test_a_raw_voltage_beside_its_signal_is_passed_over():
         ("force", "Kraft/kN", "", [0, 1], "kN", "in the name"),
         ("displacement", "s/um", "", [0, 1], "um", "in the name"),
         ("velocity", "v/m/s", "", [0, 1], "m/s", "in the name"),
+        ("acceleration", "accel_g", "", [0, 1], "g0", "in the name"),
+        ("acceleration", "a", "g", [0, 1], "g0", "stated in the file"),
+        ("acceleration", "Beschl. G", "", [0, 1], "g0", "in the name"),
+        ("acceleration", "accel", "", [0, 1], "m/s^2", "guessed"),
         ("force", "F", "", [0, 1], "N", "guessed"),
         ("time", "t", "", [0.0, 10.0, 20.0], "ms", "guessed"),
     ],
@@ -337,6 +341,18 @@ def test_what_most_runs_have_stands_once(tmp_path):
     assert text.count("column: x") == 1 and text.index("column: x") < text.index("\nruns:") < text.index("column: Weg")
     runs = read_dataset_of(tmp_path, text, found)
     assert [np.ptp(run.displacement) for run in runs] == pytest.approx([2e-3, 6e-3, 4e-3], rel=1e-3)
+
+
+@pytest.mark.parametrize(("column", "units"), [("accel_g", {}), ("accel", {"accel": "g"}), ("ch 4", {"ch 4": "g"})])
+def test_an_acceleration_in_g_is_read_in_metres(tmp_path, column, units):
+    """Two standard gravities, by what the file says and by what the dataset says."""
+    whole = {**table(chirp(1, 20)).columns, column: np.full(TIME.size, 2.0)}
+    tables = {"a.tab": Table(whole, {"t": "s", "x": "mm", "F": "N", **units})}
+    text = dataset_text(imported(tmp_path, tables), tmp_path, "rig")
+    assert "unit: g0}" in text
+    (tmp_path / "dataset.yaml").write_text(text)
+    (run,) = read_dataset(tmp_path, {"tab": Tables(tables)}).runs
+    assert run.channels["acceleration"] == pytest.approx(np.full(TIME.size, 2.0 * 9.80665))
 
 
 def test_a_sign_is_not_inherited_by_files_of_another_kind(tmp_path):

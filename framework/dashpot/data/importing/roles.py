@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from dashpot.data.channel import CHANNEL_UNITS
+from dashpot.data.channel import CHANNEL_UNITS, unit_meant
 from dashpot.data.importing.correlation import correlation
 from dashpot.data.importing.pairs import (
     Pair,
@@ -117,7 +117,7 @@ def _is_name(word: str, names: Sequence[str]) -> bool:
 def measures_channel(unit: str, channel: str) -> bool | None:
     """Whether a unit measures what a channel is; None without a unit, or with one that nobody knows."""
     try:
-        factor(unit, CHANNEL_UNITS[channel])
+        factor(unit_meant(channel, unit), CHANNEL_UNITS[channel])
     except ValueError as error:
         return None if not unit or str(error).startswith("unknown unit") else False
     return True

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from dashpot.data.channel import CHANNEL_UNITS
+from dashpot.data.channel import CHANNEL_UNITS, unit_meant
 from dashpot.data.importing.roles import measures_channel
 
 STATED, IN_NAME, GUESSED = "stated in the file", "in the name", "guessed"
@@ -26,11 +26,11 @@ class UnitFound:
 def find_unit(channel: str, column: str, stated: str, values: np.ndarray) -> UnitFound:
     """The unit of a column that is this channel. A guess is no more than that: it has to be confirmed."""
     if stated and measures_channel(stated, channel):
-        return UnitFound(stated, STATED)
+        return UnitFound(unit_meant(channel, stated), STATED)
     for word in _words(column):
         # a single letter alone is rather the symbol of the channel
         if (word != column or len(word) > 1) and measures_channel(word, channel):
-            return UnitFound(word, IN_NAME)
+            return UnitFound(unit_meant(channel, word), IN_NAME)
     return UnitFound(_guess(channel, values), GUESSED)
 
 
