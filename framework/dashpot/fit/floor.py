@@ -13,7 +13,7 @@ from dashpot.data.noise import (
     noise_from_repeats,
     pool_noise,
 )
-from dashpot.data.repeats import NotRepeatsError
+from dashpot.data.repeats import NotRepeatsError, is_same_to_the_last_digit
 from dashpot.data.run import Run
 from dashpot.data.steady import STEADY
 from dashpot.data.tracking import track
@@ -23,10 +23,12 @@ def noise_floor(dataset: Dataset) -> NoiseFloor:
     """From repeated runs where there are any, else from what lies between and above the orders of the motion.
 
     Of tables alone it is what they state.
-    Declared repeats that moved otherwise do not count; see `false_repeats`.
+    Declared repeats that moved otherwise do not count; see `false_repeats`. Nor do repeats of a force that a test
+    prescribes to the last digit: they tell no noise of it.
     """
     stated = [_stated(run) for run in dataset.runs if run.kind == STEADY]
-    floors = [floor for group in _groups(dataset) if isinstance(floor := _repeated(group), NoiseFloor)]
+    groups = [told for group in _groups(dataset) if len(told := _not_prescribed(group)) > 1]
+    floors = [floor for group in groups if isinstance(floor := _repeated(group), NoiseFloor)]
     return pool_noise([*(floors or [_single(run) for run in dataset.runs if run.kind != STEADY]), *stated])
 
 
@@ -44,6 +46,16 @@ def _groups(dataset: Dataset) -> list[list[Run]]:
     ordered = sorted(dataset.runs, key=lambda run: run.group)
     groups = [list(runs) for _, runs in groupby(ordered, lambda run: run.group)]
     return [group for group in groups if len(group) > 1]
+
+
+def _not_prescribed(group: list[Run]) -> list[Run]:
+    """The runs of a group but those that have the force of an earlier one over a motion of their own."""
+    told: list[Run] = []
+    for run in group:
+        same = [other for other in told if is_same_to_the_last_digit(other.force, run.force)]
+        if all(is_same_to_the_last_digit(other.displacement, run.displacement) for other in same):
+            told.append(run)
+    return told
 
 
 def _repeated(group: list[Run]) -> NoiseFloor | NotRepeatsError:

@@ -2,6 +2,7 @@
 
 fault       what is said of a run, and the run as it goes on
 duplicates  one record under two names
+one_test    runs that are one test, though nobody says so
 dropouts    samples that were lost
 work        the work that a specimen takes up over closed cycles
 scatter     the scatter of a run where few cycles tell it

@@ -6,23 +6,20 @@ from collections.abc import Sequence
 from itertools import combinations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from dashpot.data.repeats import is_same_to_the_last_digit
 from dashpot.data.run import Run
 from dashpot.data.white_noise import white_noise
 from dashpot.triage.fault import Fault
 
-Array = NDArray[np.float64]
-
-ROUNDING = 1e-9
 NOISELESS = 1e-7  # of the deviation: a computed force, which repeats itself exactly
 
 
 def duplicate_runs(runs: Sequence[Run]) -> list[Fault]:
     """Runs whose motion and force are those of an earlier one to the last digit; computed ones without noise may be.
 
-    A force alone may come back to the last digit where a test prescribes it, and so may the forces of one record on a
-    symmetric specimen.
+    A force alone may come back to the last digit where a test prescribes it, which ``one_test`` tells, and so may the
+    forces of one record on a symmetric specimen.
     """
     found: dict[str, Fault] = {}
     for first, second in combinations(runs, 2):
@@ -39,14 +36,8 @@ def duplicate_runs(runs: Sequence[Run]) -> list[Fault]:
 
 
 def _same(first: Run, second: Run) -> bool:
-    return _equal(first.force, second.force) and _equal(first.displacement, second.displacement)
-
-
-def _equal(one: Array, other: Array) -> bool:
-    if one.size != other.size or not np.allclose(one[:64], other[:64], rtol=ROUNDING, atol=0.0):
-        return False
-    deviation = float(np.std(one))
-    return bool(np.max(np.abs(one - other)) <= ROUNDING * deviation)
+    pairs = (first.force, second.force), (first.displacement, second.displacement)
+    return all(is_same_to_the_last_digit(*pair) for pair in pairs)
 
 
 def _is_measured(run: Run) -> bool:

@@ -17,6 +17,7 @@ from dashpot.triage.declared import moved_otherwise
 from dashpot.triage.dropouts import lost_samples
 from dashpot.triage.duplicates import duplicate_runs
 from dashpot.triage.fault import Fault, corrected
+from dashpot.triage.one_test import joined
 from dashpot.triage.passivity import work_faults
 from dashpot.triage.scale import wrong_scales
 from dashpot.triage.telling import told_once
@@ -77,11 +78,12 @@ def examine(dataset: Dataset) -> Triage:
     scaled = [one for one in wrong_scales(runs) if one.run not in (certain if one.kind == "polarity" else accepted)]
     runs = _without(runs, scaled)
     faults = [*copied, *turned, *scaled]
+    runs, one_test = joined(runs)
     kept = {run.name: run for run in runs} | {run.name: run for run in whole if run not in measured}
     left = group_repeats(_knowing_better([kept[run.name] for run in whole if run.name in kept], measured, faults))
     names = {run.name for run in runs}
     sound = [run for run in left if run.name in names]
-    remarks = late + moved_otherwise(sound) + actuator_remarks(sound)
+    remarks = late + one_test + moved_otherwise(sound) + actuator_remarks(sound)
     if not left:
         left = list(whole)
         remarks.append("No run is without a fault, so all of them are used as they are: see what is said of each")

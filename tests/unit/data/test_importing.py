@@ -253,6 +253,14 @@ def test_a_copy_is_told_and_is_no_repeat(tmp_path):
     assert found.confirm[remark] == ("b",)
 
 
+def test_a_prescribed_force_that_comes_again_is_a_repeat_and_no_copy(tmp_path):
+    motion, force = 10 + chirp(1, 20), kelvin_voigt(10 + chirp(1, 20), 1.0)
+    ways = {name: motion + 1e-3 * np.random.default_rng(seed).normal(size=TIME.size) for seed, name in enumerate("ab")}
+    found = imported(tmp_path, {f"{name}.tab": record(way, force) for name, way in ways.items()})
+    assert [run.repeats for run in found.runs] == [None, "a"]
+    assert not any("copy" in remark for remark in found.confirm)
+
+
 def test_units_and_signs_are_those_of_most_files(tmp_path):
     tables = {f"a{size}.tab": table(chirp(1, 20, size), units=False) for size in (0.2, 3.0, 5.0)}
     found = imported(tmp_path, tables)

@@ -36,3 +36,13 @@ def test_declared_repeats_of_another_amplitude_are_told_of_and_left_out():
     (told,) = false_repeats(dataset)
     assert "a, b are no repeats" in told and "repeats:" in told
     assert noise_floor(dataset).source == "residual"
+
+
+def test_repeats_of_a_prescribed_force_tell_no_noise_of_it():
+    """The force comes again to the last digit, noise included; only the sensors of the motion scatter."""
+    rng = np.random.default_rng(3)
+    first = run("a", 1e-3, rng)
+    moved = first.displacement + 1e-6 * rng.standard_normal(TIME.size)
+    again = Run("b", "harmonic", TIME, {"displacement": moved, "force": first.force}, {}, "a", "a")
+    floor = noise_floor(Dataset("prescribed", (first, again)))
+    assert floor.source == "residual" and 0.5 * NOISE < floor.value < 1.5 * NOISE
