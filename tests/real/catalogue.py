@@ -9,15 +9,19 @@ from real.sets import Entry, MeasuredSet, columns
 
 def _bouc_wen() -> Iterator[Entry]:
     parts = {"train.h5": ("multisine", [8192, 12288, 24576, 28672], 2048), "test.h5": ("multisine", [1, 4097], 2048)}
+    # the force comes again every 8192 samples: after two periods the noise of the displacement is another one
+    again = {"train_3": "train_1", "train_4": "train_2"}
     for file, (group, starts, length) in parts.items():
         for number, start in enumerate(starts):
+            name = f"{file.removesuffix('.h5')}_{number + 1}"
             yield {
-                "name": f"{file.removesuffix('.h5')}_{number + 1}",
+                "name": name,
                 "file": file,
                 "kind": "random",
                 "rows": [start, start + length - 1],
                 "channels": columns(("y", "m"), ("u", "N")),
                 "file_options": {"group": group},
+                **({"repeats": again[name]} if name in again else {}),
             }
     for number in range(6):
         start = 10001 + 24000 * number
