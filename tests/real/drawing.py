@@ -1,4 +1,4 @@
-"""Small pictures of curves and maps as SVG, without any library."""
+"""Small pictures of curves and maps as SVG, all as wide as a row of panels so that their letters are as large."""
 
 from __future__ import annotations
 
@@ -9,22 +9,26 @@ from html import escape
 import numpy as np
 from numpy.typing import NDArray
 
+from dashpot.report.figures.residual_map import told_apart
+
 Array = NDArray[np.float64]
 
 WIDE, HIGH = 240.0, 190.0  # of a panel
 LEFT, RIGHT, ABOVE, BELOW = 46.0, 8.0, 20.0, 34.0
 IN_A_ROW = 3
 MOST = 250  # points of a curve
+TICKS = 5  # of a map, on each axis
 INK, SOFT = "#1b1f24", "#57606a"
 LOWEST, MIDDLE, HIGHEST = np.array([0, 114, 178]), np.array([255, 255, 255]), np.array([213, 94, 0])
 
 
 @dataclass(frozen=True)
 class Panel:
-    """Curves (name of the colour, x, y) over common axes."""
+    """Curves (name of the colour, x, y) over common axes, or single points where they make no loop."""
 
     title: str
     curves: Sequence[tuple[str, Array, Array]]
+    points: bool = False
 
 
 def panels(found: Sequence[Panel], x_title: str, y_title: str, legend: Sequence[tuple[str, str]] = ()) -> str:
@@ -42,7 +46,7 @@ def panels(found: Sequence[Panel], x_title: str, y_title: str, legend: Sequence[
 
 def heat(mean: Array, x: Array, y: Array, x_title: str, y_title: str, unit: str) -> str:
     """A map of fields `mean` (ny, nx) over the edges `x` and `y`, drawn as wide as each other; empty where NaN."""
-    wide, high = 420.0, 300.0
+    wide, high = IN_A_ROW * WIDE, 300.0
     top = float(np.nanmax(np.abs(mean)))
     step_x, step_y = (wide - LEFT - RIGHT) / (x.size - 1), (high - ABOVE - BELOW) / (y.size - 1)
     parts = [
@@ -57,9 +61,11 @@ def heat(mean: Array, x: Array, y: Array, x_title: str, y_title: str, unit: str)
         if np.isfinite(value)
     ]
     for edges, along in ((x, True), (y, False)):
-        for k in np.unique(np.linspace(0, edges.size - 1, 5).astype(int)):
-            place = (LEFT + k * step_x, high - BELOW + 12) if along else (LEFT - 4, high - BELOW - k * step_y + 3)
-            parts.append(_words(*place, shown(edges[k]), "middle" if along else "end"))
+        for k in told_apart(edges, np.unique(np.linspace(0, edges.size - 1, TICKS).astype(int))):
+            first, last = k == 0, k == edges.size - 1
+            down = 0 if first else 8 if last else 3
+            place = (LEFT + k * step_x, high - BELOW + 12) if along else (LEFT - 4, high - BELOW - k * step_y + down)
+            parts.append(_words(*place, shown(edges[k]), "middle" if along and not last else "end"))
     parts += [_words(0.5 * wide, high - 6, x_title, "middle"), _words(4, 12, y_title, "start")]
     parts.append(_words(wide - RIGHT, 12, f"-{shown(top)} {unit} blue, +{shown(top)} {unit} orange", "end"))
     return _svg(wide, high, parts)
@@ -90,10 +96,8 @@ def _panel(panel: Panel, x_title: str, y_title: str) -> str:
         f'<rect x="{LEFT:g}" y="{ABOVE:g}" width="{right - LEFT:g}" height="{bottom - ABOVE:g}" fill="none" '
         'stroke="#c9cfd6"/>'
     )
-    lines = [
-        f'<polyline points="{_points(*place(x, y))}" fill="none" stroke="{color}" stroke-width="1.2"/>'
-        for color, x, y in panel.curves
-    ]
+    draw = _dots if panel.points else _line
+    lines = [draw(color, *place(x, y)) for color, x, y in panel.curves]
     ticks = [*_ticks((x_low, x_high), LEFT, right, bottom, True), *_ticks((y_low, y_high), bottom, ABOVE, LEFT, False)]
     titles = [
         _words(LEFT, ABOVE - 6, panel.title, "start"),
@@ -122,9 +126,20 @@ def _range(parts: Sequence[Array]) -> tuple[float, float]:
     return low - room, high + room
 
 
-def _points(x: Array, y: Array) -> str:
+def _line(color: str, x: Array, y: Array) -> str:
+    points = " ".join(f"{a:.1f},{b:.1f}" for a, b in _some(x, y))
+    return f'<polyline points="{points}" fill="none" stroke="{color}" stroke-width="1.2"/>'
+
+
+def _dots(color: str, x: Array, y: Array) -> str:
+    """Lines of no length with round ends."""
+    path = "".join(f"M{a:.1f},{b:.1f}h0" for a, b in _some(x, y))
+    return f'<path d="{path}" fill="none" stroke="{color}" stroke-width="2.2" stroke-linecap="round" opacity="0.6"/>'
+
+
+def _some(x: Array, y: Array) -> Iterator[tuple[float, float]]:
     rows = np.unique(np.linspace(0, x.size - 1, min(x.size, MOST)).astype(int))
-    return " ".join(f"{a:.1f},{b:.1f}" for a, b in zip(x[rows], y[rows], strict=True))
+    return zip(x[rows], y[rows], strict=True)
 
 
 def _words(x: float, y: float, text: str, anchor: str) -> str:

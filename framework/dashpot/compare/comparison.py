@@ -89,7 +89,7 @@ class Comparison:
         }
         return {
             **signal_evidence(runs_shown, residuals),
-            "shapes": shapes_of(runs_shown, simulated),
+            "shapes": shapes_of(runs_shown, simulated, self.setting.split.held_out),
             "history": {fit.declared.name: history_of(fit) for fit in self.fits},
             "warnings": warnings_of(self.setting, self.fits),
             "provenance": provenance_of(self.setting, self.seed),

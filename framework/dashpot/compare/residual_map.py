@@ -11,6 +11,8 @@ from numpy.typing import NDArray
 
 from dashpot.compare.levels import ORDER, ROUNDING, levelled
 from dashpot.compare.strokes import Seen
+from dashpot.data.declaration import SETTING_UNITS
+from dashpot.text.quantity import base_unit, factor
 
 Array = NDArray[np.float64]
 
@@ -47,9 +49,10 @@ NO_VARIABLES = ("warm_up", "start", "stop", "duration", "amplitude", "preload")
 def residual_maps(seen: Sequence[Seen]) -> list[dict[str, Any]]:
     """For each simulation the mean residual (measured less simulated, N) over the two variables that explain most.
 
-    ``label``; ``x`` and ``y``: each ``name``, ``unit`` and ``edges``; ``mean`` (ny, nx) N, NaN where there are few
-    samples; ``explained``: the share of the mean square of the residual that such a map predicts on stretches of the
-    runs that it was not made of; ``singles``: that share for each variable alone.
+    ``label``; ``x`` and ``y``: each ``name``, ``unit`` and ``edges`` in that unit, which is SI or, of a free setting,
+    that in which it was told; ``mean`` (ny, nx) N, NaN where there are few samples; ``explained``: the share of
+    the mean square of the residual that such a map predicts on stretches of the runs that it was not made of;
+    ``singles``: that share for each variable alone.
     """
     labels = list(dict.fromkeys(label for each in seen for label in each.forces if label != "measured"))
     rows = [_rows(each, MOST // len(seen)) for each in seen]
@@ -58,7 +61,15 @@ def residual_maps(seen: Sequence[Seen]) -> list[dict[str, Any]]:
         [(part * BLOCKS // each.run.time.size) % 2 == 0 for part, each in zip(rows, seen, strict=True)]
     )
     places = {name: _bins(values) for name, values in variables.items()}
-    return [_map(label, *_forces(label, seen, rows), places, taught) for label in labels]
+    units = _units_of_settings(seen)
+    return [_map(label, *_forces(label, seen, rows), places, taught, units) for label in labels]
+
+
+def _units_of_settings(seen: Sequence[Seen]) -> dict[str, str]:
+    """The units in which settings were told, of those that all runs tell in one unit."""
+    told = [(name, unit) for each in seen for name, unit in each.run.units.items()]
+    units = dict(told)
+    return {name: unit for name, unit in units.items() if all(one == unit for other, one in told if other == name)}
 
 
 def _rows(seen: Seen, most: int) -> NDArray[np.intp]:
@@ -118,6 +129,7 @@ def _map(
     simulated: Array,
     places: Mapping[str, tuple[Array, NDArray[np.intp]]],
     taught: NDArray[np.bool_],
+    units: Mapping[str, str],
 ) -> dict[str, Any]:
     known = np.isfinite(measured - simulated)
     measured, simulated, taught = measured[known], simulated[known], taught[known]
@@ -132,11 +144,17 @@ def _map(
     place = kept[x][1] + wide * kept[y][1]
     hits = np.bincount(place, minlength=wide * high)
     means = np.where(hits >= FEWEST, np.bincount(place, residual, wide * high) / np.maximum(hits, 1), np.nan)
-    told = {
-        which: {"name": name, "unit": UNITS.get(name, ""), "edges": kept[name][0]}
-        for which, name in (("x", x), ("y", y))
-    }
+    told = {which: _variable(name, kept[name][0], units.get(name, "")) for which, name in (("x", x), ("y", y))}
     return {"label": label, **told, "mean": means.reshape(high, wide), "explained": shares[x, y], "singles": singles}
+
+
+def _variable(name: str, edges: Array, told: str) -> dict[str, Any]:
+    """A variable as it is told; ``edges`` are in SI, ``told`` is the unit of a free setting."""
+    unit = UNITS.get(name, SETTING_UNITS.get(name))
+    if unit is not None or not told:
+        return {"name": name, "unit": unit or "", "edges": edges}
+    size, zero = factor(told, base_unit(told))
+    return {"name": name, "unit": told, "edges": (edges - zero) / size}
 
 
 def _joint(places: Mapping[str, tuple[Array, NDArray[np.intp]]], pair: tuple[str, str]) -> NDArray[np.intp]:

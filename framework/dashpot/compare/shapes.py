@@ -5,7 +5,7 @@ The same curves are taken out of the measured force and out of simulated ones, a
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -31,13 +31,16 @@ MOST_REVERSALS = 100
 NO_CONDITIONS = ("warm_up", "start", "stop", "duration")
 
 
-def shapes_of(runs: Sequence[Run], simulated: Simulated | None = None) -> dict[str, Any]:
+def shapes_of(
+    runs: Sequence[Run], simulated: Simulated | None = None, held_out: Collection[str] = ()
+) -> dict[str, Any]:
     """Curves of the measured force and of ``simulated[label][run]`` (n,) N, for ``report.figures.shape_figures``.
 
     ``labels``; ``runs``: each ``run`` and its ``shade``, the value of the condition ``shaded_by``; ``mid_stroke``,
     ``low_speed``, ``less_spring`` and ``after_reversals``: lists of curves ``{run, label, x, y}`` in SI;
     ``conditions``: values by run and label, see ``conditions_of``, at the levels of all runs; ``cycles``: the same
-    over time; ``residual_maps``: see ``residual_map``.
+    over time; ``residual_maps``: see ``residual_map``, of the runs that are not ``held_out``: a network errs more on
+    these, and a map of both would show which runs they are.
     """
     seen = [see(run, simulated) for run in runs]
     slow = [curve for each in slow_runs(seen) for curve in low_speed(each)]
@@ -50,7 +53,7 @@ def shapes_of(runs: Sequence[Run], simulated: Simulated | None = None) -> dict[s
         "after_reversals": [curve for each in seen for curve in after_reversals(each)],
         "conditions": _at_levels([row for each in seen for row in conditions_of(each)], seen),
         "cycles": [row for each in seen for row in over_time(each)],
-        "residual_maps": residual_maps(seen),
+        "residual_maps": residual_maps([each for each in seen if each.name not in held_out]),
     }
 
 

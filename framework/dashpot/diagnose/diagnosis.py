@@ -259,7 +259,7 @@ class Diagnosis(Findings):
         signals = signal_evidence(self.setting.dataset.runs, residuals)
         return {
             **signals,
-            "shapes": shapes_of(self.setting.dataset.runs, signals["loops"]["simulated"]),
+            "shapes": shapes_of(self.setting.dataset.runs, signals["loops"]["simulated"], self.setting.split.held_out),
             "patch": self.patch(),
             "rejected": self._rejected(),
             "tried": len(self.pursuit.look.candidates),

@@ -111,6 +111,7 @@ def test_amplitudes_that_a_rig_does_not_tell_apart_are_one_condition():
     (panel,) = panels(shown([1.000e-3, 1.009e-3, 1.017e-3]))
     assert panel == "order of tests"
     assert panels(rows) == ["amplitude (mm)", "order of tests"]
+    assert panels(shown([1e-3] * 3, frequency=(1.0, 2.0, 3.0))) == ["frequency (Hz)", "order of tests"]
 
 
 def test_levels_that_are_farther_apart_stay_as_they_are():
@@ -198,6 +199,41 @@ def test_a_condition_that_a_rig_repeats_is_no_variable(key, alike, apart, unit):
 
 def test_a_small_motion_about_a_large_preload_is_a_variable():
     assert {"deflection", "place of the last reversal"} <= set(varied("pressure", (1.0, 2.0), preload=0.5))
+
+
+@pytest.mark.parametrize(
+    ("key", "values", "unit", "edges"),
+    [
+        ("frequency", (2.0, 4.0), "Hz", (1.0, 3.0, 5.0)),
+        ("temperature", (293.15, 303.15), "degC", (15.0, 25.0, 35.0)),
+        ("pressure", (2e5, 4e5), "bar", (1.0, 3.0, 5.0)),
+        ("grade", (1.0, 3.0), "", (0.0, 2.0, 4.0)),
+    ],
+)
+def test_a_setting_is_told_in_the_unit_of_its_file(key, values, unit, edges):
+    """The edges of two levels are in the middle of them and as far beyond; of 30 runs the order tells less."""
+    seen = []
+    for k, value in enumerate(values * 15):
+        x = sweep(2e-3, 0.0)
+        told = {key: unit} if key != "frequency" else {}
+        made = replace(run(f"r{k}", x, (k % 2) * x / 2e-3, order=k, **{key: value}), units=told)
+        seen.append(see(made, {"model": {made.name: np.zeros(x.size)}}))
+    [told] = residual_maps(seen)
+    axis = next(told[which] for which in ("x", "y") if told[which]["name"] == key)
+    assert axis["unit"] == unit and axis["edges"] == pytest.approx(edges)
+
+
+def test_held_out_runs_take_no_part_in_the_map():
+    """They are wrong by far more; of the others the residual follows the velocity alone."""
+    runs, forces = [], {}
+    for k in range(6):
+        x = sweep((1.0 + k) * 1e-3, 0.0)
+        missing = 100.0 * np.sign(np.gradient(x, DT)) if k < 4 else np.full(x.size, 2000.0 * (k - 4.5))
+        runs.append(run(f"r{k}", x, missing, order=k))
+        forces[f"r{k}"] = np.zeros(x.size)
+    [told] = shapes_of(runs, {"model": forces}, ("r4", "r5"))["residual_maps"]
+    assert max(told["singles"], key=told["singles"].get) in ("velocity", "travel since reversal")
+    assert np.nanmax(np.abs(told["mean"])) == pytest.approx(100.0, rel=1e-6)
 
 
 def test_noise_is_explained_by_nothing():

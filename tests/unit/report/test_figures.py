@@ -297,6 +297,19 @@ def test_the_misfit_map_puts_each_error_into_its_cell():
     assert np.array_equal(panel["z"], [[1.0, np.nan], [np.nan, 2.0]], equal_nan=True)
 
 
+def test_edges_of_a_residual_map_that_read_alike_have_one_tick():
+    """Half of the samples of a motion lie near its reversals."""
+    edges = np.array([-4.0, -3.99, -3.98, -1.0, 0.0, 1.0, 3.98, 3.99, 4.0]) * 1e-3
+    steps = {"name": "frequency", "unit": "Hz", "edges": np.array([0.02, 0.17, 0.75, 2.0, 6.0])}
+    told = {"label": "before", "x": {"name": "deflection", "unit": "m", "edges": edges}, "y": steps}
+    figure = figures.residual_map(told | {"mean": np.ones((4, 8)), "explained": 0.5, "singles": {"velocity": 0.4}})
+    axes = figure.plot["layout"]
+    assert axes["xaxis"]["ticktext"] == ["-4.0", "-1.0", "0", "1.0", "4.0"]
+    assert list(axes["xaxis"]["tickvals"]) == [0, 3, 4, 5, 6]
+    assert axes["yaxis"]["ticktext"] == ["0.020", "0.17", "0.75", "2.0", "6.0"]
+    assert axes["yaxis"]["title"]["text"] == "frequency (Hz)"
+
+
 def test_simulations_of_one_band_stand_side_by_side():
     rows = [{"run": run, "band": "whole run", "rmse": {"spring": 1.0, "gehmann": 2.0}} for run in "ab"]
     (panel,) = figures.misfit_map(rows).plot["data"]

@@ -7,13 +7,14 @@ from typing import Any
 
 import numpy as np
 
+from dashpot.data.declaration import SETTING_UNITS
 from dashpot.report.figures import toggles
 from dashpot.report.figures.tidy import TidyTable
 from dashpot.report.parts import Figure
 from dashpot.report.theme import axis, axis_number, layout, plain, series_color
 
 ROWS = (("stiffness", "stiffness (N/mm)", [0.55, 1.0]), ("loss", "loss stiffness (N/mm)", [0.0, 0.45]))
-IN_MM = ("amplitude", "preload")
+IN_MM = tuple(name for name, unit in SETTING_UNITS.items() if unit == "m")
 PANELS = 5
 GAP = 0.05
 
@@ -116,7 +117,8 @@ def _layout(names: Sequence[str], groups: list[dict[str, Any]]) -> dict[str, Any
 
 
 def _heading(name: str) -> str:
-    return f"{name.replace('_', ' ')} (mm)" if name in IN_MM else name.replace("_", " ")
+    unit = "mm" if name in IN_MM else SETTING_UNITS.get(name)
+    return f"{name.replace('_', ' ')} ({unit})" if unit else name.replace("_", " ")
 
 
 def _factor(name: str) -> float:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -14,6 +14,9 @@ from dashpot.report.theme import axis, layout
 from dashpot.text.digits import beside, number
 
 SIGNED = [[0.0, "@after"], [0.5, "@paper"], [1.0, "@before"]]
+# of their reach, and of the larger one: an axis is as long as twenty of its labels are high, and numbers with two
+# digits differ by no less
+NEAR = 0.05
 LITTLE = 0.05  # of the mean square of the residual: less is told as such
 IN_RIG_UNITS = {"m": (1e3, "mm"), "m/s": (1e3, "mm/s")}
 
@@ -46,7 +49,8 @@ def residual_map(told: Mapping[str, Any]) -> Figure:
     best_two = "These two variables predict" if share >= LITTLE else "No two variables predict more than"
     caption = (
         "Measured minus simulated force, mean of each cell; positive: the force of the model is too small. "
-        f"{best_two} {percent(share)} of the mean square of the residual on held-out pieces; alone: {alone}. "
+        f"{best_two} {percent(share)} of the mean square of the residual on other pieces of the runs; alone: {alone}. "
+        "Held-out runs take no part. "
         "Every row and every column holds the same number of samples."
     )
     axes = {
@@ -54,15 +58,30 @@ def residual_map(told: Mapping[str, Any]) -> Figure:
             name,
             zeroline=False,
             showgrid=False,
-            tickvals=np.arange(edges.size),
-            ticktext=_ticks(edges),
+            tickvals=places,
+            ticktext=_ticks(edges[places]),
         )
         for which, name, edges in (("xaxis", x_name, x), ("yaxis", y_name, y))
+        for places in [told_apart(edges)]
     }
     wide, high = (0.5 * (edges[1:] + edges[:-1]) for edges in (x, y))
     columns = {x_name: np.tile(wide, high.size), y_name: np.repeat(high, wide.size), "mean residual (N)": mean.ravel()}
     plot = {"data": [trace], "layout": layout(440, **axes)}
     return Figure(f"Residual of {toggles.series_name(told['label'])}", caption, plot, columns)
+
+
+def told_apart(edges: np.ndarray, places: Sequence[int] | None = None) -> list[int]:
+    """Those of the places of edges that are told at ticks: none whose edge reads like that of the tick before.
+
+    Where many samples lie close together, as at the reversals of a motion, many edges do.
+    """
+    places = range(edges.size) if places is None else places
+    told = [places[0]]
+    for place in places[1:]:
+        before, here = float(edges[told[-1]]), float(edges[place])
+        if here - before > NEAR * min(float(np.ptp(edges)), max(abs(before), abs(here))):
+            told.append(place)
+    return told
 
 
 def _ranges(edges: np.ndarray) -> list[str]:
