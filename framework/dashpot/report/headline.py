@@ -37,6 +37,11 @@ class Errors:
     def gain(self) -> float | None:
         return 1.0 - self.after / self.before if self.before and self.after is not None else None
 
+    @property
+    def written(self) -> float | None:
+        """The RMSE of the network that goes with the result, N."""
+        return self.before if self.after is None else self.after
+
 
 def read_errors(diagnosis: Json) -> Errors:
     """The errors of a `dashpot-diagnosis/1` on its held-out runs, else on the training runs."""
@@ -65,9 +70,8 @@ def short_headline(diagnosis: Json) -> str:
     """The verdict in 25 words at most: the error, and as many causes by name as there is room for."""
     errors, verdict = read_errors(diagnosis), diagnosis["verdict"]
     named = _titles(diagnosis)
-    if verdict == "nothing_missing" and errors.before is not None and errors.floor:
-        error, floor = quantity(errors.before, "N"), quantity(errors.floor, "N")
-        return f"Nothing is missing: the error of {error} is at the noise floor ({floor})."
+    if verdict == "nothing_missing" and errors.written is not None and errors.floor:
+        return _at_floor(errors)
     start, end = _short_frame(verdict, errors)
     for count in range(len(named), 0, -1):
         more = [f"{len(named) - count} more"] if count < len(named) else []
@@ -186,10 +190,14 @@ def _explained(diagnosis: Json, errors: Errors) -> str:
 
 
 def _nothing_missing(diagnosis: Json, errors: Errors) -> str:
-    if errors.before is None or not errors.floor:
+    if errors.written is None or not errors.floor:
         return f"Nothing is missing: no candidate cause is supported by the data.{_limit(diagnosis)}"
-    error, floor = quantity(errors.before, "N"), quantity(errors.floor, "N")
-    return f"Nothing is missing: the error of {error} is at the noise floor ({floor}).{_limit(diagnosis)}"
+    return f"{_at_floor(errors)}{_limit(diagnosis)}"
+
+
+def _at_floor(errors: Errors) -> str:
+    error, floor = quantity(errors.written, "N"), quantity(errors.floor, "N")
+    return f"Nothing is missing: the error of {error} is at the noise floor ({floor})."
 
 
 def _limit(diagnosis: Json) -> str:

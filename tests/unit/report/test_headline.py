@@ -69,6 +69,14 @@ def test_nothing_missing_compares_the_error_with_the_floor():
     assert said == "Nothing is missing: the error of 14.9 N is at the noise floor (14.5 N)."
 
 
+def test_nothing_missing_tells_the_error_of_the_file_that_goes_with_it():
+    """Without the branches that may go a network can be a little better than the diagnosed one."""
+    rmse = {"before": {"held_out": 18.0}, "after": {"held_out": 15.1}}
+    told = diagnosis(verdict="nothing_missing", causes=[], rmse=rmse, may_go=["maxwell"])
+    start = "Nothing is missing: the error of 15.1 N is at the noise floor (14.5 N)."
+    assert headline(told).startswith(start) and short_headline(told) == start
+
+
 def test_partly_explained_says_what_is_left():
     rmse = {"before": {"held_out": 61.0}, "after": {"held_out": 27.5}}
     said = headline(diagnosis(verdict="partly_explained", rmse=rmse))
