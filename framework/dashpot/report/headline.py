@@ -105,7 +105,9 @@ def _short_frame(verdict: str, errors: Errors) -> tuple[str, str]:
         return f"{error}: no known cause fits; it resembles ", ""
     if verdict == "ambiguous":
         return f"{error}: not distinguishable by these data: ", ""
-    share = f"; {percent(errors.gain)} of it is " if errors.gain is not None else ": "
+    gained = errors.gain is None or errors.gain > 0.0
+    part = f"; {percent(errors.gain)} of it is " if gained else f"; on {errors.runs} nothing is gained by "
+    share = ": " if errors.gain is None else part
     left = f"; {quantity(errors.after, 'N')} remain" if verdict == "partly_explained" and errors.after else ""
     return f"{error}{share}", left
 
@@ -186,7 +188,16 @@ def _explained(diagnosis: Json, errors: Errors) -> str:
     causes = likely_causes(diagnosis)
     if not causes:
         return f"{error_phrase(errors)}."
-    return f"{error_phrase(errors)}; {percent(errors.gain)} of it is {_named(causes)}."
+    return f"{error_phrase(errors)}; {_part(errors.gain, causes, errors.runs)}."
+
+
+def _part(gain: float | None, causes: list[Json], runs: str) -> str:
+    """Which part of the error some causes are, or that runs that took no part gain nothing by them."""
+    if gain is not None and gain <= 0.0:
+        told = [_as_sure_as_it_is(cause) for cause in causes]
+        told = [text if cause.get("accepted") else f"what is {text}" for cause, text in zip(causes, told, strict=True)]
+        return f"on {runs} nothing is gained by {listed(told)}"
+    return f"{'part' if gain is None else percent(gain)} of it is {_named(causes)}"
 
 
 def _nothing_missing(diagnosis: Json, errors: Errors) -> str:
@@ -232,8 +243,8 @@ def _partly_explained(diagnosis: Json, errors: Errors) -> str:
     left = f"{quantity(errors.after, 'N')} remain unexplained"
     if errors.floor and errors.after is not None:
         left += f", {number(errors.after / errors.floor, 2)} × the noise floor"
-    share = percent(errors.gain) if errors.gain and errors.gain > MOST else f"only {percent(errors.gain)}"
-    named = f"{share} of it is {_named(causes)}" if causes else "it is only partly explained"
+    only = "only " if errors.gain is not None and 0.0 < errors.gain <= MOST else ""
+    named = only + _part(errors.gain, causes, errors.runs) if causes else "it is only partly explained"
     return f"{error_phrase(errors)}; {named}; {left}{_stands_in(causes)}{_leftover(diagnosis)}."
 
 
@@ -270,10 +281,10 @@ def _ambiguous(diagnosis: Json, errors: Errors) -> str:
     names = join([f"more {cause_title(c)}" if cause_title(c) in known else cause_phrase(c) for c in rivals])
     if not alone:
         return f"{error_phrase(errors)}: {names} explain it equally well; these data do not distinguish them."
-    rest = f"a further part is explained equally well by {names}; these data do not distinguish them"
     gain = _gain_of(alone)
-    share = "part" if gain is None else percent(gain)
-    return f"{error_phrase(errors)}; {share} of it is {_named(alone)}; {rest}."
+    further = "further " if gain is None or gain > 0.0 else ""
+    rest = f"a {further}part is explained equally well by {names}; these data do not distinguish them"
+    return f"{error_phrase(errors)}; {_part(gain, alone, errors.runs)}; {rest}."
 
 
 def _gain_of(causes: list[Json]) -> float | None:

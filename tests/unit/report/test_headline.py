@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 from unit.report.report_samples import comparison, diagnosis, friction, relaxation
 
@@ -257,6 +259,26 @@ def test_what_is_sure_comes_before_what_cannot_be_told_apart():
     assert "explained equally well by more dry friction, relaxation of 160 ms [20, 900] and delay;" in said
 
 
+@pytest.mark.parametrize("verdict", ["explained", "partly_explained", "ambiguous"])
+def test_no_share_is_negative(verdict):
+    """On runs that took no part a cause may cost more than it gains."""
+    causes = [friction(gain=-0.16), relaxation(accepted=True, indistinguishable_from=["delay"])]
+    rmse = {"before": {"held_out": 61.0}, "after": {"held_out": 70.0}}
+    told = diagnosis(verdict=verdict, causes=causes, rmse=rmse)
+    for said in (headline(told), short_headline(told)):
+        assert not re.search(r"-\d", said) and "15 %" not in said
+    assert "; on held-out runs nothing is gained by " in headline(told)
+    if verdict == "ambiguous":
+        assert "by dry friction of 41 N [38, 44]; a part is explained equally well by" in headline(told)
+    else:
+        assert "by (1) dry friction of 41 N [38, 44] and (2) relaxation or delay" in headline(told)
+
+
+def test_what_gains_nothing_is_told_as_sure_as_it_is():
+    told = diagnosis(verdict="ambiguous", causes=[friction(accepted=False, standing="probable", gain=-0.1), RIVAL])
+    assert "nothing is gained by what is probably dry friction of 41 N [38, 44]; a part" in headline(told)
+
+
 def test_large_forces_are_given_in_kilonewtons():
     rmse = {"before": {"held_out": 56311.8}, "after": {"held_out": 25617.2}}
     said = headline(diagnosis(rmse=rmse, noise_floor={"value": 3626.0, "from": "repeats"}))
@@ -290,6 +312,7 @@ def test_silence_says_how_small_an_effect_it_is_about():
     assert "delay, from 9.00 N RMS on (delay 45.0 µs)." in said
 
 
+RIVAL = relaxation(accepted=True, indistinguishable_from=["delay"])
 SUSPENSION, BAR = "between wheel_left and body, likewise wheel_right and body", "between wheel_left and wheel_right"
 
 
