@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from dashpot.compare.bands import frequency_bands
 from dashpot.compare.conditions import STEADY, Conditions, conditions_of
-from dashpot.data.order_tracking import harmonics_of
+from dashpot.data.order_tracking import Oscillation, harmonics_of
 from dashpot.data.run import Run
 from dashpot.data.tracking import track
 from dashpot.text.quantity import pretty
@@ -38,18 +38,28 @@ class Misfit:
 
 @dataclass(frozen=True, eq=False)
 class _Parts:
-    """One run: squared misfit by kind (windows,) N^2, mean error of both stiffnesses N/m, frequency (windows,) Hz."""
+    """One run: squared misfit by kind (windows,) N^2, mean error of both stiffnesses N/m, frequency (windows,) Hz.
+
+    ``weights`` (windows,) is the share of the time for which a window stands, ``total`` the mean square of the residual
+    in N^2, and ``share`` the part of it that is of each kind.
+    """
 
     conditions: Conditions
     energy: Mapping[str, Array]
     error: Mapping[str, float]
     frequency: Array
+    weights: Array
     total: float
+    share: Mapping[str, float]
 
     def size(self, kind: str) -> Array:
         """How wrong each window is: an error of stiffness counts as stiffness, or long strokes were always worst."""
         energy = self.energy[kind]
         return energy / max(self.conditions.amplitude, 1e-9) ** 2 if kind in self.error else energy
+
+    def mean_size(self, kind: str) -> float:
+        """How wrong it is over the time."""
+        return float(self.size(kind) @ self.weights)
 
 
 def describe_misfit(runs: Sequence[Run], residuals: Mapping[str, Array]) -> list[Misfit]:
@@ -57,8 +67,8 @@ def describe_misfit(runs: Sequence[Run], residuals: Mapping[str, Array]) -> list
     parts = [part for run in runs if (part := _split(run, residuals[run.name])) is not None]
     if not parts:
         return _by_run(runs, residuals)
-    total = sum(part.total for part in parts)
-    shares = {kind: sum(float(part.energy[kind].mean()) for part in parts) / total for kind in parts[0].energy}
+    total = sum(part.total for part in parts) or 1.0
+    shares = {kind: sum(part.total * part.share[kind] for part in parts) / total for kind in parts[0].energy}
     found = [
         Misfit(_words(kind, parts), share, _where(kind, parts))
         for kind, share in shares.items()
@@ -72,7 +82,7 @@ def _split(run: Run, residual: Array) -> _Parts | None:
     if oscillation is None:
         return None
     orders = harmonics_of(residual, oscillation, confident=False)
-    half = 0.5 * (orders.sine**2 + orders.cosine**2)
+    half = 0.5 * np.nan_to_num(orders.sine**2 + orders.cosine**2)
     energy = {
         "storage": 0.5 * orders.sine[:, 0] ** 2,
         "loss": 0.5 * orders.cosine[:, 0] ** 2,
@@ -80,8 +90,29 @@ def _split(run: Run, residual: Array) -> _Parts | None:
         "odd": half[:, 2] + half[:, 4],
         "mean": orders.offset**2,
     }
-    error = {"storage": float(np.mean(orders.storage)), "loss": float(np.mean(orders.loss))}
-    return _Parts(conditions_of(run, oscillation), energy, error, orders.frequency, float(np.mean(residual**2)))
+    weights, covered = _times(oscillation)
+    error = {"storage": float(orders.storage @ weights), "loss": float(orders.loss @ weights)}
+    total = float(np.mean(residual**2))
+    inside = float(np.mean(np.where(covered, residual**2, 0.0))) / (total or 1.0)
+    whole = float((orders.offset**2 + half.sum(axis=1) + orders.noise**2) @ weights) or 1.0
+    share = {kind: inside * float(values @ weights) / whole for kind, values in energy.items()}
+    return _Parts(conditions_of(run, oscillation), energy, error, orders.frequency, weights, total, share)
+
+
+def _times(oscillation: Oscillation) -> tuple[Array, NDArray[np.bool_]]:
+    """The share (windows,) of samples for which each window stands, the nearest one, and for which (n,) any does.
+
+    These are the ones in which the motion oscillates in windows, or beside them by half of their length: windows end
+    before a record does.
+    """
+    windows, count = oscillation.orders.windows, len(oscillation.angle)
+    turns, beside = np.zeros(count + 1), (windows.stop - windows.start) // 2
+    np.add.at(turns, np.maximum(windows.start - beside, 0), 1.0)
+    np.add.at(turns, np.minimum(windows.stop + beside, count), -1.0)
+    covered = (np.cumsum(turns[:-1]) > 0.0) & np.isfinite(oscillation.angle)
+    middles = oscillation.time / oscillation.sample_time
+    nearest = np.searchsorted(0.5 * (middles[1:] + middles[:-1]), np.flatnonzero(covered))
+    return np.bincount(nearest, minlength=middles.size) / nearest.size, covered
 
 
 def _words(kind: str, parts: Sequence[_Parts]) -> str:
@@ -114,7 +145,7 @@ def _side(error: float) -> str:
 
 
 def _size(kind: str, parts: Sequence[_Parts]) -> float:
-    return float(np.sqrt(np.mean([part.size(kind).mean() for part in parts])))
+    return float(np.sqrt(np.mean([part.mean_size(kind) for part in parts])))
 
 
 def _by_level(parts: Sequence[_Parts], level: Callable[[_Parts], float]) -> dict[float, list[_Parts]]:

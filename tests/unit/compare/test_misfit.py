@@ -1,6 +1,7 @@
 """The words for a misfit, on residuals whose nature is known."""
 
 import numpy as np
+import pytest
 from seeds import seed_of
 
 from dashpot.compare.misfit import describe_misfit
@@ -37,6 +38,27 @@ def test_harmonics_are_told_apart():
     """Second and third harmonic have their own words."""
     assert words(20.0 * np.sin(2.0 * PHASE))[0].what.startswith("second harmonic")
     assert words(20.0 * np.sin(3.0 * PHASE))[0].what.startswith("third and fifth harmonic")
+
+
+def test_shares_are_those_of_the_time():
+    """Half of the time of a sweep the model is too soft, in the other half its mean is wrong by as much squared."""
+    slow = np.where(TIME < 5.0, 1.0, 0.0)
+    found = words(slow * 50.0 * np.sin(PHASE) + (1.0 - slow) * 50.0 / np.sqrt(2.0))
+    shares = {misfit.what.partition(" ")[0]: misfit.share for misfit in found}
+    assert np.allclose([shares["storage"], shares["mean"]], 0.5, atol=0.03)
+
+
+@pytest.mark.parametrize("power", [-1.0, 0.0, 1.0, 2.0])
+def test_shares_are_of_one_total(power):
+    """However the error changes along the sweep, and whatever is wrong before it begins to oscillate."""
+    size = (2.0 + 1.8 * TIME) ** power
+    assert 0.9 < sum(misfit.share for misfit in words(size * (np.sin(PHASE) + 0.5 * np.cos(2.0 * PHASE)))) <= 1.0
+    rest = np.where(TIME < 4.0, 0.0, 1.0)
+    late = 2.0 * np.pi * 5.0 * (TIME - 4.0)
+    x = 2e-3 * rest * np.sin(late)
+    run = Run("late", "harmonic", TIME, {"displacement": x, "force": 2e5 * x})
+    found = describe_misfit([run], {"late": 30.0 * rest * np.sin(late) + 200.0 * (1.0 - rest)})
+    assert sum(misfit.share for misfit in found) <= 1.0 and all(misfit.share < 0.1 for misfit in found)
 
 
 def test_the_band_is_where_the_error_is():
