@@ -25,6 +25,7 @@ from dashpot.triage.energy import runs_that_give_back
 from dashpot.triage.examine import examine
 from dashpot.triage.fault import Fault
 from dashpot.triage.telling import told_once
+from dashpot.triage.work import work_of_cycles
 
 Array = NDArray[np.float64]
 
@@ -130,13 +131,15 @@ def look(dataset: Dataset, seed: int = 0, metrics: Iterable[type[Metric]] = ()) 
 def described(seen: Seen, gives_back: bool) -> dict[str, Any]:
     """A run in numbers, SI: what it was moved by, its force, and what its closed cycles take up.
 
-    ``energy_per_cycle`` in J is the median over ``cycles``; without closed cycles ``work`` in J, that of the whole run
-    with its ends joined, stands alone. ``gives_back`` says that it gives back work beyond doubt, as triage tells it.
+    ``energy_per_cycle`` in J is the mean over ``cycles`` between passages of the middle, which triage judges by; of a
+    single loop that has none, that of the loop. Without closed cycles ``work`` in J, that of the whole run with its
+    ends joined, stands alone. ``gives_back`` says that it gives back work beyond doubt, as triage tells it. Stiffness
+    and loss are medians over cycles between reversals.
     """
     run, force = seen.run, seen.forces["measured"]
     values = seen.cycle_values["measured"]
     whole = work(seen.displacement[seen.first :], force[seen.first :])
-    energy = float(np.median(values.energy)) if values.time.size else None
+    energy, cycles = _energy_of_cycles(seen)
     return {
         "run": run.name,
         "kind": run.kind,
@@ -149,13 +152,21 @@ def described(seen: Seen, gives_back: bool) -> dict[str, Any]:
         "peak_speed": seen.peak_speed,
         "least_force": float(force.min()),
         "largest_force": float(force.max()),
-        "cycles": int(values.time.size),
+        "cycles": cycles,
         "energy_per_cycle": energy,
         "work": whole,
         "stiffness": float(np.median(values.stiffness)) if values.time.size else None,
         "loss": float(np.median(values.loss)) if values.time.size else None,
         "gives_back": gives_back,
     }
+
+
+def _energy_of_cycles(seen: Seen) -> tuple[float | None, int]:
+    """The work in J that a closed cycle takes up, and how many there are."""
+    between, loops = work_of_cycles(seen.run), seen.cycle_values["measured"].energy
+    if between is not None:
+        return between.mean, between.halves.size // 2
+    return float(np.median(loops)) if loops.size else None, int(loops.size)
 
 
 def spectra(seen: Seen) -> list[dict[str, Any]]:

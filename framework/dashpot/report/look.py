@@ -98,7 +98,7 @@ def look_grid(look: Json, keys: Sequence[str] = ()) -> Grid:
     columns = [replace(column, unit=unit) if column.key == "energy" else column for column in COLUMNS]
     chosen = [column for column in columns if not keys or column.key in keys]
     used = [column for column in chosen if any(row.get(column.key) is not None for row in rows)]
-    caption = "Energy per cycle is the median over closed cycles; positive: the specimen takes up work."
+    caption = "Energy per cycle is the mean over closed cycles; positive: the specimen takes up work."
     return Grid("The runs", used, rows, caption, "runs.csv")
 
 

@@ -11,11 +11,12 @@ from unit.compare.specimens import DAMPING, DT, NOISE, STIFFNESS, run, slide, sw
 
 import dashpot as dp
 from dashpot.compare import boosting
-from dashpot.compare.look import look, spectra
+from dashpot.compare.look import described, look, spectra
 from dashpot.compare.strokes import see
 from dashpot.data.dataset import Dataset
 from dashpot.report.json_text import json_text
 from dashpot.report.look import look_figures, look_headline
+from dashpot.triage.work import work_of_cycles
 
 
 @pytest.fixture(autouse=True)
@@ -81,6 +82,19 @@ def test_look_json_is_plain_and_the_same_twice():
     assert told["format"] == "dashpot-look/1"
     assert all(each["energy_per_cycle"] > 0.0 for each in told["runs"])
     assert told["explainable"]["held_out"] < 1.5 * NOISE
+
+
+@pytest.mark.parametrize(("kind", "seed"), [("random", 1), ("random", 2), ("sweep", 3)])
+def test_the_energy_of_a_cycle_is_the_one_that_triage_judges_by(kind, seed):
+    """A damper takes up its constant times the squared velocity over the time, in cycles about the middle."""
+    noise = np.random.default_rng(seed).standard_normal(12_000)
+    smooth = np.hanning(80) / np.hanning(80).sum()
+    x = 4e-3 * np.convolve(np.convolve(noise, smooth, "same"), smooth, "same") if kind == "random" else sweep(2e-3, 0.0)
+    v = np.gradient(x, DT)
+    made = run("r", x, STIFFNESS * x + DAMPING * v, kind)
+    told = described(see(made), False)
+    assert told["energy_per_cycle"] == pytest.approx(work_of_cycles(made).mean)
+    assert told["energy_per_cycle"] * told["cycles"] == pytest.approx(DAMPING * DT * np.sum(v**2), rel=0.1)
 
 
 def test_every_picture_is_drawn():
