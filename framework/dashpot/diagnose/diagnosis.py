@@ -325,7 +325,7 @@ def _cause_of_faults(rank: int, cause: type[Cause], faults: Sequence[Fault]) -> 
         "standing": "accepted",
         "branch": None,
         "evidence": "; ".join(f"run '{fault.run}': {fault.evidence}" for fault in faults),
-        "evidence_of": "range" if faults[0].kind == "clipping" else "repeats",
+        "evidence_of": faults[0].evidence_of,
         "probability": 1.0,
         "presence": 1.0,
         "expected_gain": None,

@@ -15,6 +15,7 @@ from dashpot.diagnose.pursuit import NAMED
 from dashpot.diagnose.term import Term
 from dashpot.model.network import NetworkSpec, Value
 from dashpot.model.sites import Site
+from dashpot.model.slopes import RUN, per_run
 
 STANDINGS = ("accepted", "probable", "resembles")
 
@@ -107,12 +108,14 @@ class NamedCause:
                 "unit": one.kind.fault.unit,
                 "interval": None,
             }
+        slopes = per_run(self.slots)
         for path, value in self.slots.items():
             branch, _, name = path.partition(".")
             found[name if branch == self.branch else path] = {
                 "value": value.number,
                 "unit": value.unit,
                 "interval": list(value.interval) if value.interval else None,
+                **({"per": RUN} if path in slopes else {}),
             }
         return found
 

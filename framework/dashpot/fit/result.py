@@ -19,6 +19,7 @@ from dashpot.fit.prior import PriorTold, describe_priors
 from dashpot.model.identified import Range
 from dashpot.model.network import NetworkSpec
 from dashpot.model.patch import fill_numbers
+from dashpot.model.slopes import RUN, per_run
 from dashpot.text.digits import quantity, with_interval
 from dashpot.text.quantity import pretty
 
@@ -172,11 +173,13 @@ class FitResult:
         if self.noise_floor.value:
             lines.append(f"noise floor {quantity(self.noise_floor.value, 'N')}, from {self.noise_floor.source}")
         unknown, curves = {*self.idle, *self.undetermined}, self.fitted.curves()
+        slopes = per_run({slot.path: slot.value for slot in self.fitted.slots()})
         for slot in self.fitted.slots():
             if (slot.value.searched or slot.value.expression) and slot.path.partition("[")[0] not in curves:
                 value, interval = slot.value, None if slot.path in unknown else slot.value.interval
                 follows = f"  = {value.expression}" if value.expression else ""
-                lines.append(f"  {slot.path} = {with_interval(value.number, interval, value.unit)}{follows}")
+                size = with_interval(value.number, interval, value.unit, RUN if slot.path in slopes else "")
+                lines.append(f"  {slot.path} = {size}{follows}")
         lines += [f"  {path} is at the end of its range: widen its bounds or drop it" for path in self.at_bound]
         told = self.identifiability or {"weak": (), "may_go": ()}
         lines += [f"  {sentence}" for sentence in (*told["weak"], *told["may_go"])]
@@ -210,12 +213,14 @@ def but_undetermined(paths: Sequence[str]) -> str:
 
 def parameters_of(spec: NetworkSpec) -> dict[str, Any]:
     """Every number of a network as it stands in result files."""
+    slopes = per_run({slot.path: slot.value for slot in spec.slots()})
     return {
         slot.path: {
             "value": slot.value.number,
             "unit": slot.value.unit,
             "role": slot.value.role,
             "interval": list(slot.value.interval) if slot.value.interval else None,
+            **({"per": RUN} if slot.path in slopes else {}),
             **({"expression": slot.value.expression} if slot.value.expression else {}),
         }
         for slot in spec.slots()

@@ -142,7 +142,7 @@ def _key_figures(diagnosis: Json) -> list[tuple[str, str, str, str]]:
     shown = [
         ("error before", errors.before, "N", runs),
         ("error after", errors.after, "N", f"{less}{runs}"),
-        ("explainable", explainable, "N", "of a general model of the past motion"),
+        ("explainable", explainable, "N", f"of a general model of the past motion{grids.cross_validated(diagnosis)}"),
         ("noise floor", errors.floor, "N", grids.floor_note(diagnosis)),
     ]
     return [(label, *shown_with_unit(value, unit), note) for label, value, unit, note in shown if value is not None]

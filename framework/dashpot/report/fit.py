@@ -15,7 +15,7 @@ from dashpot.report.headline import RUNS
 from dashpot.report.parts import Code, Column, Grid, KeyFigures, Notice, Page, Part, Picture, Section
 from dashpot.report.patch import diff
 from dashpot.report.posterior import TEXT, posterior_parts
-from dashpot.text.digits import rig_unit, shown_with_unit
+from dashpot.text.digits import rig_unit, shown_with_unit, unit_per
 
 Json = Mapping[str, Any]
 
@@ -142,7 +142,7 @@ def _in_rig_units(entry: Json, known: bool) -> dict[str, Any]:
         "low": low,
         "high": high,
         "interval": interval,
-        "unit": unit or None,
+        "unit": unit_per(unit, entry.get("per")) or None,
     }
 
 

@@ -8,7 +8,7 @@ from typing import Any
 
 from dashpot.report.parts import Column, Grid
 from dashpot.report.readable import join, percent_interval
-from dashpot.text.digits import number, rig_unit, with_interval
+from dashpot.text.digits import number, rig_unit, unit_per, with_interval
 
 Json = Mapping[str, Any]
 
@@ -185,11 +185,14 @@ def parameter_texts(cause: Json) -> list[str]:
     """Every parameter of the cause with its interval, in rig units where the file says the unit; curves by name."""
     found = cause.get("parameters") or {}
     curves = dict.fromkeys(path.partition("[")[0] for path in found if _is_knot(path))
-    return [
-        f"{name.replace('_', ' ')} {with_interval(entry['value'], entry.get('interval'), entry.get('unit') or '')}"
-        for name, entry in found.items()
-        if not _is_knot(name)
-    ] + [f"the curve {path.replace('_', ' ')}" for path in curves]
+    return [f"{name.replace('_', ' ')} {size_of(entry)}" for name, entry in found.items() if not _is_knot(name)] + [
+        f"the curve {path.replace('_', ' ')}" for path in curves
+    ]
+
+
+def size_of(entry: Json) -> str:
+    """A parameter of a result file with its interval."""
+    return with_interval(entry["value"], entry.get("interval"), entry.get("unit") or "", entry.get("per") or "")
 
 
 def floor_value(result: Json) -> float | None:
@@ -220,6 +223,12 @@ def explainable_value(result: Json) -> float | None:
     """The error in N that a general model leaves on runs that it did not see, None where there is none."""
     told = result.get("explainable") or {}
     return told.get("cross_validated") if told.get("held_out") is None else told["held_out"]
+
+
+def cross_validated(result: Json) -> str:
+    """What the explainable error is where no run was held out, behind its name; empty where one was."""
+    told = result.get("explainable") or {}
+    return " in cross-validation" if told.get("held_out") is None else ""
 
 
 def explainable_origin(result: Json) -> str:
@@ -289,7 +298,8 @@ def _parameter_row(name: str, entries: Sequence[Any]) -> dict[str, Any]:
     unit = next((entry["unit"] for entry in described if entry.get("unit")), "")
     known = [abs(entry["value"]) for entry in described if entry["value"] is not None]
     factor, shown = rig_unit(unit, max(known, default=0.0))
-    row: dict[str, Any] = {"parameter": name, "unit": shown or None}
+    per = next((entry["per"] for entry in described if entry.get("per")), None)
+    row: dict[str, Any] = {"parameter": name, "unit": unit_per(shown, per) or None}
     for i, entry in enumerate(described):
         row[f"model {i}"] = None if entry["value"] is None else entry["value"] * factor
         row[f"interval {i}"] = [end * factor for end in entry.get("interval") or ()]

@@ -8,9 +8,18 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from dashpot.report.grids import cause_name, cause_title, explainable_value, floor_value, is_likely
+from dashpot.report.faults import told_faults
+from dashpot.report.grids import (
+    cause_name,
+    cause_title,
+    cross_validated,
+    explainable_value,
+    floor_value,
+    is_likely,
+    size_of,
+)
 from dashpot.report.readable import join, listed, percent
-from dashpot.text.digits import number, quantity, with_interval
+from dashpot.text.digits import number, quantity
 
 Json = Mapping[str, Any]
 
@@ -136,7 +145,7 @@ def cause_phrase(cause: Json) -> str:
     first: Json = next(iter(parameters.values()), {})
     if not first.get("value") or not _is_known(first) or "[" in next(iter(parameters)):
         return cause_title(cause)
-    size = with_interval(first["value"], first.get("interval"), first.get("unit") or "")
+    size = size_of(first)
     quantity_name = next(iter(parameters)).rpartition(".")[2].replace("_", " ")
     return " ".join(filter(None, [_with_size(cause_name(cause), quantity_name, size), cause.get("place")]))
 
@@ -172,7 +181,7 @@ def beside_references(diagnosis: Json) -> str:
     shown = {
         "before": errors.before,
         "after": errors.after,
-        "explainable": explainable_value(diagnosis),
+        f"explainable{cross_validated(diagnosis)}": explainable_value(diagnosis),
         "noise floor": errors.floor,
     }
     known = [f"{name} {quantity(error, 'N')}" for name, error in shown.items() if error is not None]
@@ -294,14 +303,11 @@ def _gain_of(causes: list[Json]) -> float | None:
 
 
 def _bad_data(diagnosis: Json, errors: Errors) -> str:
-    faults = diagnosis.get("faults") or []
-    same = [fault["run"] for fault in faults if fault["evidence"] == faults[0]["evidence"]]
-    runs = f"run '{same[0]}'" if len(same) == 1 else f"{len(same)} runs"
-    first = f"{faults[0]['evidence']} ({runs})" if faults else _measurement_faults(diagnosis)
-    more = f", and {len(faults) - len(same)} more" if len(faults) > len(same) else ""
+    told = [f"{evidence} ({runs})" for runs, evidence in told_faults(diagnosis.get("faults") or ())]
+    first = "; ".join(told) or _measurement_faults(diagnosis)
     causes = [cause for cause in likely_causes(diagnosis) if cause.get("branch")]
     rest = f"; the sound runs show {_named(causes)}" if causes else ""
-    return f"The measurement is at fault first: {first}{more}. {error_phrase(errors)}{rest}."
+    return f"The measurement is at fault first: {first}. {error_phrase(errors)}{rest}."
 
 
 def _measurement_faults(diagnosis: Json) -> str:

@@ -9,6 +9,7 @@ from typing import Any
 from dashpot.report import figures
 from dashpot.report.colophon import colophon
 from dashpot.report.evidence import Evidence
+from dashpot.report.faults import told_faults
 from dashpot.report.figures import excerpt
 from dashpot.report.grids import explainable_origin, explainable_value, floor_origin, floor_value, metrics_grid
 from dashpot.report.parts import Column, Figure, Grid, KeyFigures, Notice, Page, Part, Section
@@ -72,12 +73,7 @@ def look_figures(evidence: Evidence) -> list[Figure]:
 def look_headline(look: Json) -> str:
     """What is wrong with the runs, or what is to be explained."""
     if look["faults"]:
-        first = look["faults"][0]
-        same = sum(fault["evidence"] == first["evidence"] for fault in look["faults"])
-        more = len(look["faults"]) - same
-        further = f" {more} more {'run is' if more == 1 else 'runs are'} at fault." if more else ""
-        runs = f"Run '{first['run']}'" if same == 1 else f"{same} runs"
-        return f"{runs}: {first['evidence']}.{further}"
+        return " ".join(f"{runs[0].upper()}{runs[1:]}: {what}." for runs, what in told_faults(look["faults"]))
     wrong = [run["run"] for run in look["runs"] if run["gives_back"]]
     if wrong:
         gives = "gives" if len(wrong) == 1 else "give"

@@ -8,8 +8,9 @@ from typing import Any
 
 from dashpot.model.meanings import meanings_of
 from dashpot.model.network import NetworkSpec, Slot, Value
+from dashpot.model.slopes import RUN, per_run
 from dashpot.report.parts import Column, Grid
-from dashpot.text.digits import rig_unit
+from dashpot.text.digits import rig_unit, unit_per
 
 ROLES = {"fixed": "fixed", "free": "free", "identified": "identified"}
 COLUMNS = (
@@ -31,8 +32,10 @@ def parameters_grid(spec: NetworkSpec, remarks: Mapping[str, str] | None = None)
     Without remarks a column tells what each parameter means.
     """
     meanings = meanings_of(spec) if remarks is None else {}
+    slopes = per_run({slot.path: slot.value for slot in spec.slots()})
     rows = [
-        _row(slot, meanings.get(slot.path.partition("[")[0]), (remarks or {}).get(slot.path)) for slot in spec.slots()
+        _row(slot, meanings.get(slot.path.partition("[")[0]), (remarks or {}).get(slot.path), slot.path in slopes)
+        for slot in spec.slots()
     ]
     used = [column for column in COLUMNS if any(row[column.key] is not None for row in rows)]
     waiting = [path for path, curve in spec.data_curves().items() if curve.form == "data"]
@@ -49,7 +52,7 @@ def _range(value: Value) -> tuple[float, float]:
     return value.sensible if value.searched else (-math.inf, math.inf)
 
 
-def _row(slot: Slot, meaning: str | None, remark: str | None) -> dict[str, Any]:
+def _row(slot: Slot, meaning: str | None, remark: str | None, of_runs: bool) -> dict[str, Any]:
     value = slot.value
     factor, unit = rig_unit(value.unit, abs(value.number))
     interval = None if value.interval is None else [side * factor for side in value.interval]
@@ -62,7 +65,7 @@ def _row(slot: Slot, meaning: str | None, remark: str | None) -> dict[str, Any]:
         "low": low,
         "high": high,
         "interval": interval,
-        "unit": unit or None,
+        "unit": unit_per(unit, RUN if of_runs else "") or None,
         "lower": lower,
         "upper": upper,
         "role": remark or (f"= {value.expression}" if value.expression else ROLES[value.role]),

@@ -15,7 +15,7 @@ from dashpot.report.evidence import Evidence
 from dashpot.report.parts import Column, Grid, Notice, Page, Part, Section
 from dashpot.report.readable import set_value
 from dashpot.study.masses import mass_sentence
-from dashpot.text.digits import number, number_within, rig_unit
+from dashpot.text.digits import number, number_within, rig_unit, unit_per
 
 Json = Mapping[str, Any]
 
@@ -218,7 +218,7 @@ def _interval_row(path: str, entry: Json, bootstrap: Any, profile: Json | None) 
     factor, unit = rig_unit(entry["unit"], abs(entry["value"]))
     return {
         "parameter": path,
-        "unit": unit or None,
+        "unit": unit_per(unit, entry.get("per")) or None,
         "value": entry["value"] * factor,
         "ends": [factor * end for end in entry["interval"]],
         "interval": _pair(entry["interval"], factor),

@@ -84,17 +84,25 @@ def shown_with_unit(value: float | None, unit: str, digits: int = 3) -> tuple[st
     return number(value * scale, digits), typeset(name)
 
 
-def with_interval(value: float | None, interval: Sequence[float] | None, unit: str) -> str:
-    """An SI value and its interval in one unit, with the decimals that the interval gives: "41 N [38, 44]"."""
+def with_interval(value: float | None, interval: Sequence[float] | None, unit: str, per: str = "") -> str:
+    """An SI value and its interval in one unit, with the decimals that the interval gives: "41 N [38, 44]".
+
+    What it is ``per``, and has no unit, stands behind the unit: "5 N per run".
+    """
     if value is None or not math.isfinite(value):
         return MISSING
     scale, name = rig_unit(unit, value)
-    name = typeset(name)
+    name = unit_per(typeset(name), per)
     if not is_interval(interval):
         return f"{number(value * scale)} {name}".rstrip()
     ends = sorted(end * scale for end in interval)
     low, high = (number_within(end, ends) for end in ends)
     return f"{number_within(value * scale, ends)} {name}".rstrip() + f" [{low}, {high}]"
+
+
+def unit_per(unit: str, per: str | None) -> str:
+    """A unit per what is counted: "N per run"."""
+    return f"{unit} per {per}".lstrip() if per else unit
 
 
 def is_interval(interval: Sequence[float] | None) -> TypeGuard[Sequence[float]]:

@@ -16,7 +16,7 @@ from dashpot.triage.actuator import actuator_remarks
 from dashpot.triage.declared import moved_otherwise
 from dashpot.triage.dropouts import lost_samples
 from dashpot.triage.duplicates import duplicate_runs
-from dashpot.triage.fault import Fault, corrected
+from dashpot.triage.fault import RANGE, RECORD, Fault, corrected
 from dashpot.triage.one_test import joined
 from dashpot.triage.passivity import work_faults
 from dashpot.triage.scale import wrong_scales
@@ -61,7 +61,10 @@ def examined(dataset: Dataset) -> Dataset:
 
 def examine(dataset: Dataset) -> Triage:
     """Look for faults of the measurement. A dataset never loses its last run."""
-    read = [Fault(run, found.fault, found.message, found.hint) for run, found in dataset.faults]
+    read = [
+        Fault(run, found.fault, found.message, found.hint, evidence_of=RANGE if found.fault == "clipping" else RECORD)
+        for run, found in dataset.faults
+    ]
     whole = one_force_each(dataset).runs
     measured = [
         run for run in whole if "force" in run.channels and "displacement" in run.channels and run.kind != STEADY

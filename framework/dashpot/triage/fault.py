@@ -6,11 +6,15 @@ from dataclasses import dataclass, replace
 
 from dashpot.data.run import Run
 
+ENERGY, OTHER_RUNS, RANGE, RECORD = "energy", "other_runs", "range", "record"
+
 
 @dataclass(frozen=True)
 class Fault:
     """A fault of one run: ``kind`` in a word, ``evidence`` in a sentence, ``cure`` says what to do.
 
+    ``evidence_of`` says what shows it: ``energy`` that it gives back, ``other_runs`` that it does not agree with,
+    ``range`` that its values end at, else what the ``record`` shows by itself.
     ``factor`` by which ``channel`` was multiplied here so that the run may stay; None for a run that is set aside.
     """
 
@@ -20,6 +24,7 @@ class Fault:
     cure: str
     factor: float | None = None
     channel: str = "force"
+    evidence_of: str = RECORD
 
     @property
     def done(self) -> str:

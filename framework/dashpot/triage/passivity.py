@@ -13,7 +13,7 @@ from dashpot.data.run import Run
 from dashpot.text.quantity import pretty
 from dashpot.triage.agreement import MOSTLY
 from dashpot.triage.energy import ONE_IN, giving_back, works_of
-from dashpot.triage.fault import Fault
+from dashpot.triage.fault import ENERGY, Fault
 from dashpot.triage.forecast import Moments, Sizes, compared, fitted, moments_of, moments_of_run, swapped_moments
 from dashpot.triage.work import CycleWork
 
@@ -82,7 +82,7 @@ def _turned_together(bad: Sequence[Run], sound: Sequence[Run], works: Mapping[st
         f"with the force turned round it is taken up: the force of {'all' if every else 'most'} runs has the wrong sign"
     )
     cure = f"Write 'sign: -1' under the force channel of {'all' if every else 'these'} runs"
-    return [Fault(run.name, "polarity", evidence, cure, -1.0) for run in turned]
+    return [Fault(run.name, "polarity", evidence, cure, -1.0, evidence_of=ENERGY) for run in turned]
 
 
 def _turned_like(turned: Sequence[Fault], runs: Sequence[Run], works: Mapping[str, CycleWork]) -> Iterator[Fault]:
@@ -143,8 +143,9 @@ def _fault_of(run: Run, work: CycleWork, sound: Sequence[Run]) -> Fault:
             f"{seen}, which no passive specimen does; neither another sign nor a delay nor swapped channels "
             "makes it agree with the other runs",
             "Check its channels, or leave it out",
+            evidence_of=ENERGY,
         )
-    return Fault(run.name, best.kind, f"{seen}: {best.words}", best.cure, best.factor, best.channel)
+    return Fault(run.name, best.kind, f"{seen}: {best.words}", best.cure, best.factor, best.channel, ENERGY)
 
 
 def _most_likely(run: Run, work: CycleWork, sound: Sequence[Run]) -> _Try | None:

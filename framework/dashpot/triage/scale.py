@@ -19,7 +19,7 @@ from dashpot.data.run import Run
 from dashpot.text.quantity import pretty
 from dashpot.triage.agreement import ACCURACY, FEWEST, MOSTLY, Agreement, find_agreement
 from dashpot.triage.conditions import FRICTION, change_by_conditions, ratios
-from dashpot.triage.fault import Fault
+from dashpot.triage.fault import OTHER_RUNS, Fault
 from dashpot.triage.forecast import Moments, Sizes, moments_of, moments_of_run, rate_of, swapped_moments
 
 # what was measured over what it is -> how that comes about
@@ -132,6 +132,7 @@ def _fault_of(run: Run, known: Agreement, inside: Sequence[Run], sizes: Sizes, l
             f"its force is {gain:.3g} times that expected from all other runs: the channel has the wrong sign",
             "Write 'sign: -1' under its force channel, or swap the wires",
             -1.0,
+            evidence_of=OTHER_RUNS,
         )
     change = change_by_conditions(inside)
     allowed = known.reach + change
@@ -165,6 +166,7 @@ def _swapped(run: Run) -> Fault:
         "swapped_channels",
         "with its force and displacement taken for each other it agrees with the others, as it is it does not",
         "Swap the columns of its force and displacement channels",
+        evidence_of=OTHER_RUNS,
     )
 
 
@@ -235,6 +237,7 @@ def _unit_of_force(run: Run, gain: float, near: Sequence[float], correction: flo
         + (f"like {like}" if like else "more than any conditions change it, and like no well-known mistake"),
         "Correct the 'unit' of its force channel",
         correction,
+        evidence_of=OTHER_RUNS,
     )
 
 
@@ -263,6 +266,7 @@ def _unit_of_stroke(run: Run, fits: Sequence[float]) -> Fault:
         "Correct the 'unit' of its displacement channel",
         _correction(fits),
         "displacement",
+        OTHER_RUNS,
     )
 
 

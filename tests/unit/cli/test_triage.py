@@ -41,6 +41,15 @@ def test_check_names_the_runs_and_what_they_are(call, folder):
     assert "run 'r3'" in unit and "kN written as N" in unit and "multiplied by 0.001 here" in unit
 
 
+def test_a_diagnosis_names_all_runs_at_fault_and_what_shows_it(call, folder, tmp_path):
+    """No run is a repeat of another one: a wrong unit shows beside all others, a wrong sign in the energy."""
+    out = "".join(call("diagnose", "kelvin_voigt", folder, "-o", tmp_path / "d")[1:])
+    assert "(run 'r1')" in out and "(run 'r3')" in out and "1 more" not in out
+    told = json.loads((tmp_path / "d" / "diagnosis.json").read_text())
+    assert {fault["run"]: fault["evidence_of"] for fault in told["faults"]} == {"r1": "energy", "r3": "other_runs"}
+    assert [cause["evidence_of"] for cause in told["causes"] if cause["cause"] == "gain"] == ["other_runs"]
+
+
 def test_fit_and_compare_go_on_with_the_mended_runs(call, folder, tmp_path):
     code, _, err = call("fit", "kelvin_voigt", folder, "-o", tmp_path / "fit", "--quiet")
     assert code == 0

@@ -71,10 +71,13 @@ def test_a_zero_that_drifts_over_the_session_is_one_number_of_the_load_cell():
     for each in shifted:
         assert seen[each.name] == pytest.approx(each.force, abs=0.6)  # six times the noise
     model = parse_network(MODEL + DRIFTING % "{start: 0 N}", REGISTRY.elements)
-    found = fit_network(model, Dataset("d", tuple(shifted)), registry=REGISTRY).fitted
+    result = fit_network(model, Dataset("d", tuple(shifted)), registry=REGISTRY)
+    found, told = result.fitted, result.as_dict()["parameters"]
     numbers = {slot.path: slot.value.number for slot in found.slots()}
     assert numbers["measurement.force.offset.slope"] == pytest.approx(-3.0, abs=0.02)
     assert numbers["piston.force.slope"] == pytest.approx(100.0 / 1e5, rel=0.01)
+    assert [path for path, each in told.items() if each.get("per") == "run"] == ["measurement.force.offset.slope"]
+    assert "offset.slope = -3" in result.summary() and result.summary().count(" N per run") == 1
 
 
 def test_outside_of_a_dataset_a_number_over_the_order_is_the_one_that_is_told():

@@ -8,7 +8,9 @@ import pytest
 from unit.report.report_samples import comparison, diagnosis, friction, relaxation
 
 from dashpot.report.comparison import comparison_headline
+from dashpot.report.grids import parameter_texts
 from dashpot.report.headline import SENTENCES, beside_references, headline, short_headline
+from dashpot.report.look import look_headline
 
 
 def test_an_explained_error_is_named_with_its_size():
@@ -131,6 +133,38 @@ def test_bad_data_comes_before_any_judgement_of_the_model():
     fault = friction(cause="clipping", title=None, **{"class": "measurement"}, parameters={})
     said = headline(diagnosis(verdict="bad_data", causes=[fault, relaxation()]))
     assert said.startswith("The measurement is at fault first: clipping.")
+
+
+FAULTS = [
+    {"run": "n4", "kind": "polarity", "evidence": "it gives back work"},
+    {"run": "n6", "kind": "unit", "evidence": "its force is 0.001 times that expected"},
+    {"run": "n7", "kind": "unit", "evidence": "its force is 0.00101 times that expected"},
+]
+
+
+def test_runs_of_all_kinds_of_faults_are_named():
+    said = headline(diagnosis(verdict="bad_data", causes=[], faults=FAULTS))
+    assert said.startswith(
+        "The measurement is at fault first: it gives back work (run 'n4'); "
+        "its force is 0.001 times that expected (run 'n6', likewise run 'n7'). RMSE"
+    )
+    many = [{"run": f"r{k}", "kind": "unit", "evidence": "alike"} for k in range(9)]
+    assert "alike (9 runs)." in headline(diagnosis(verdict="bad_data", causes=[], faults=many))
+    look = {"faults": FAULTS, "runs": []}
+    assert look_headline(look) == (
+        "Run 'n4': it gives back work. Run 'n6', likewise run 'n7': its force is 0.001 times that expected."
+    )
+
+
+def test_the_explainable_error_of_cross_validation_is_called_so():
+    told = diagnosis(rmse={"before": {"train": 14.0}}, explainable={"held_out": None, "cross_validated": 60.0})
+    assert "RMSE on training runs: before 14.0 N, explainable in cross-validation 60.0 N" in beside_references(told)
+
+
+def test_a_slope_over_the_order_of_the_runs_is_per_run():
+    slope = {"value": -5.2, "interval": [-7.6, -2.9], "unit": "N", "per": "run"}
+    assert parameter_texts(friction(parameters={"slope": slope})) == ["slope -5 N per run [-8, -3]"]
+    assert "of -5 N per run [-8, -3]" in headline(diagnosis(causes=[friction(parameters={"slope": slope})]))
 
 
 def test_without_held_out_runs_the_training_error_is_quoted():
