@@ -192,9 +192,14 @@ class Diagnosis(Findings):
             "removal": {"held_out": named.removal},
             "parameters": named.parameters(),
             "indistinguishable_from": list(named.rivals),
+            "rivals": [{"cause": word, "class": self._kind_of(word)} for word in named.rivals],
             "alternatives": [],
             "next_measurement": measurements[0] if measurements else None,
         }
+
+    def _kind_of(self, word: str) -> str | None:
+        """Whether a cause is of the specimen or of the measurement; None for a rival that no plugin provides."""
+        return self.causes[word].kind if word in self.causes else None
 
     def _next_for(self, named: NamedCause) -> list[str]:
         """What to measure next about a cause: a run that was simulated, else what its plugin knows, else its cure."""
@@ -338,6 +343,7 @@ def _cause_of_faults(rank: int, cause: type[Cause], faults: Sequence[Fault]) -> 
             if fault.factor is not None
         },
         "indistinguishable_from": [],
+        "rivals": [],
         "alternatives": [],
         "next_measurement": faults[0].cure,
     }

@@ -3,20 +3,17 @@
 from __future__ import annotations
 
 import math
-import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from dashpot.report.cause_words import as_sure_as_it_is, cause_phrase, likely_causes, named, or_rivals, probably
 from dashpot.report.faults import told_faults
 from dashpot.report.grids import (
-    cause_name,
     cause_title,
     cross_validated,
     explainable_value,
     floor_value,
-    is_likely,
-    size_of,
 )
 from dashpot.report.readable import join, listed, percent
 from dashpot.text.digits import number, quantity
@@ -29,8 +26,6 @@ RUNS = {"held_out": "held-out runs", "train": "training runs", "all": "all runs"
 MOST = 0.9  # of an error: no longer only a part of it
 MOST_HIDDEN = 3  # causes told by name
 MOST_WORDS = 25  # of a short headline
-MOST_BEFORE_OF = 2  # words of a name that a size may follow
-WIDE = 10.0  # an interval of more than this times the value leaves the value unknown
 
 
 @dataclass(frozen=True)
@@ -94,7 +89,7 @@ def _titles(diagnosis: Json) -> list[str]:
     """The causes that are told, each as sure as it is; all that the error resembles where nothing explains it."""
     if diagnosis["verdict"] == "unexplained":
         return [cause_title(cause) for cause in diagnosis["causes"]]
-    likely = [_probably(cause, cause_title(cause)) for cause in likely_causes(diagnosis)]
+    likely = [probably(cause, cause_title(cause)) for cause in likely_causes(diagnosis)]
     return likely or (_resembled(diagnosis) if diagnosis["verdict"] == "ambiguous" else [])
 
 
@@ -136,35 +131,6 @@ def _short_error(errors: Errors) -> str:
     return f"RMSE {quantity(errors.before, 'N')}{floor}"
 
 
-def cause_phrase(cause: Json) -> str:
-    """The cause with its first parameter: what, how much, how sure; no number that says nothing."""
-    parameters = cause.get("parameters") or {}
-    branches = {name.rpartition(".")[0] for name in parameters}
-    if len(branches) > 1:  # "": the numbers of the first branch that it adds; else it changes numbers that were there
-        return f"{cause_title(cause)} in {len(branches)} branches" if "" in branches else cause_title(cause)
-    first: Json = next(iter(parameters.values()), {})
-    if not first.get("value") or not _is_known(first) or "[" in next(iter(parameters)):
-        return cause_title(cause)
-    size = size_of(first)
-    quantity_name = next(iter(parameters)).rpartition(".")[2].replace("_", " ")
-    return " ".join(filter(None, [_with_size(cause_name(cause), quantity_name, size), cause.get("place")]))
-
-
-def _with_size(name: str, quantity_name: str, size: str) -> str:
-    """A short name "of 41 N"; a longer one ends in a word of which this is no size: "damping that fades (time 3 s)"."""
-    words = re.sub(r"\(.*\)", "", name.removeprefix("a ").removeprefix("an ")).split()
-    if len(words) <= MOST_BEFORE_OF:
-        return f"{name} of {size}"
-    told = size if quantity_name in words else f"{quantity_name} {size}"
-    return f"{name[:-1]}; {told})" if name.endswith(")") else f"{name} ({told})"
-
-
-def _is_known(parameter: Json) -> bool:
-    """Whether the interval of a value leaves anything of it."""
-    low, high = parameter.get("interval") or (0.0, 0.0)
-    return high - low <= WIDE * abs(parameter["value"])
-
-
 def error_phrase(errors: Errors) -> str:
     """The size of the error against what the measurement can resolve."""
     if errors.before is None:
@@ -188,11 +154,6 @@ def beside_references(diagnosis: Json) -> str:
     return f"RMSE on {errors.runs}: {', '.join(known)}." if errors.runs else ""
 
 
-def likely_causes(diagnosis: Json) -> list[Json]:
-    """The causes that the data support, in their order: the accepted ones, and those that are probable."""
-    return [cause for cause in diagnosis["causes"] if is_likely(cause)]
-
-
 def _explained(diagnosis: Json, errors: Errors) -> str:
     causes = likely_causes(diagnosis)
     if not causes:
@@ -203,10 +164,10 @@ def _explained(diagnosis: Json, errors: Errors) -> str:
 def _part(gain: float | None, causes: list[Json], runs: str) -> str:
     """Which part of the error some causes are, or that runs that took no part gain nothing by them."""
     if gain is not None and gain <= 0.0:
-        told = [_as_sure_as_it_is(cause) for cause in causes]
+        told = [as_sure_as_it_is(cause) for cause in causes]
         told = [text if cause.get("accepted") else f"what is {text}" for cause, text in zip(causes, told, strict=True)]
         return f"on {runs} nothing is gained by {listed(told)}"
-    return f"{'part' if gain is None else percent(gain)} of it is {_named(causes)}"
+    return f"{'part' if gain is None else percent(gain)} of it is {named(causes)}"
 
 
 def _nothing_missing(diagnosis: Json, errors: Errors) -> str:
@@ -265,7 +226,7 @@ def _stands_in(causes: list[Json]) -> str:
 
 def _unexplained(diagnosis: Json, errors: Errors) -> str:
     missing = "something is missing in the model, and no known cause fits it"
-    alike = [_or_rivals(cause) for cause in diagnosis["causes"]]
+    alike = [or_rivals(cause) for cause in diagnosis["causes"]]
     left = f", with which {quantity(errors.after, 'N')} remain" if errors.after is not None else ""
     resembled = f"; it resembles {listed(alike)}{left}" if alike else ""
     return f"{error_phrase(errors)}: {missing}{resembled}{_leftover(diagnosis)}."
@@ -283,7 +244,7 @@ def _ambiguous(diagnosis: Json, errors: Errors) -> str:
     """What has no rival comes first; causes that fit alike explain the rest of it."""
     rivals, likely = _rivals(diagnosis), likely_causes(diagnosis)
     if len(rivals) < 2:
-        told = f", {_named(likely)}" if likely else f"; it resembles {' or '.join(_resembled(diagnosis))}"
+        told = f", {named(likely)}" if likely else f"; it resembles {' or '.join(_resembled(diagnosis))}"
         return f"{error_phrase(errors)}: the cause is not identifiable from these data{told}."
     alone = [cause for cause in likely if not cause.get("indistinguishable_from")]
     known = [cause_title(cause) for cause in alone]
@@ -306,36 +267,13 @@ def _bad_data(diagnosis: Json, errors: Errors) -> str:
     told = [f"{evidence} ({runs})" for runs, evidence in told_faults(diagnosis.get("faults") or ())]
     first = "; ".join(told) or _measurement_faults(diagnosis)
     causes = [cause for cause in likely_causes(diagnosis) if cause.get("branch")]
-    rest = f"; the sound runs show {_named(causes)}" if causes else ""
+    rest = f"; the sound runs show {named(causes)}" if causes else ""
     return f"The measurement is at fault first: {first}. {error_phrase(errors)}{rest}."
 
 
 def _measurement_faults(diagnosis: Json) -> str:
     faults = [cause for cause in likely_causes(diagnosis) if cause.get("class") == "measurement"]
     return join([cause_phrase(cause) for cause in faults]) if faults else "see the findings below"
-
-
-def _named(causes: list[Json]) -> str:
-    specimen = [_as_sure_as_it_is(cause) for cause in causes if cause.get("class") != "measurement"]
-    faults = [_as_sure_as_it_is(cause) for cause in causes if cause.get("class") == "measurement"]
-    named = [f"{listed(specimen)}, missing in the model"] if specimen else []
-    return "; and ".join(named + ([f"{listed(faults)}, a fault of the measurement"] if faults else []))
-
-
-def _as_sure_as_it_is(cause: Json) -> str:
-    """A cause with its rivals, which have other parameters, and as probable where it is no more than that."""
-    return _probably(cause, _or_rivals(cause) if cause.get("indistinguishable_from") else cause_phrase(cause))
-
-
-def _or_rivals(cause: Json) -> str:
-    """A cause, or what may stand in its place."""
-    rivals = [cause_title({"cause": word}) for word in cause.get("indistinguishable_from") or ()]
-    return " or ".join([cause_title(cause), *rivals])
-
-
-def _probably(cause: Json, words: str) -> str:
-    """What is said of a cause, as probable where it is not accepted."""
-    return words if cause.get("accepted") else f"probably {words}"
 
 
 def _rivals(diagnosis: Json) -> list[Json]:

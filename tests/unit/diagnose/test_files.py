@@ -131,6 +131,10 @@ def assert_files_hold(folder, tmp_path):
     after = errors(final, corrected, tmp_path / "after", told["held_out"])
     for found, said in ((before, told["rmse"]["before"]), (after, told["rmse"]["after"])):
         assert found == pytest.approx(said, rel=1e-6)
+    kinds = {word: cause.kind for word, cause in load_registry().causes.items()}
+    for cause in told["causes"]:
+        beside = [{"cause": word, "class": kinds.get(word)} for word in cause["indistinguishable_from"]]
+        assert cause["rivals"] == beside
     return told
 
 

@@ -68,6 +68,25 @@ def test_a_fault_of_the_measurement_is_not_called_missing_in_the_model():
     assert "is delay, a fault of the measurement." in headline(diagnosis(causes=[fault]))
 
 
+def test_a_fault_and_its_rival_in_the_specimen_are_told_apart():
+    rivals = {"indistinguishable_from": ["heating"], "rivals": [{"cause": "heating", "class": "specimen"}]}
+    drift = friction(cause="drift", title="drift of the force channel", **{"class": "measurement"}, **rivals)
+    said = headline(diagnosis(causes=[relaxation(accepted=True), drift | {"accepted": False, "standing": "probable"}]))
+    assert said.endswith(
+        "is relaxation of 160 ms [20, 900], missing in the model; and probably drift of the force channel, "
+        "a fault of the measurement, or heating, missing in the model."
+    )
+    late = {"indistinguishable_from": ["delay"], "rivals": [{"cause": "delay", "class": "measurement"}]}
+    said = headline(diagnosis(causes=[friction(**late)]))
+    assert said.endswith("is dry friction, missing in the model, or delay, a fault of the measurement.")
+    both = {"indistinguishable_from": ["offset"], "rivals": [{"cause": "offset", "class": "measurement"}]}
+    said = headline(diagnosis(causes=[drift | both]))
+    assert said.endswith("is drift of the force channel or offset, a fault of the measurement.")
+    unknown = {"indistinguishable_from": ["x"], "rivals": []}
+    said = headline(diagnosis(causes=[drift | unknown]))
+    assert said.endswith("is drift of the force channel, a fault of the measurement, or x.")
+
+
 def test_nothing_missing_compares_the_error_with_the_floor():
     said = headline(diagnosis(verdict="nothing_missing", causes=[], rmse={"before": {"held_out": 14.9}, "after": None}))
     assert said == "Nothing is missing: the error of 14.9 N is at the noise floor (14.5 N)."
