@@ -14,6 +14,7 @@ Json = Mapping[str, Any]
 
 NOTHING: Mapping[str, str] = MappingProxyType({})
 SIDES = {"specimen": "missing in the model", "measurement": "a fault of the measurement"}
+RARE = 0.1  # as surely as an accepted cause is at work, with nine in ten, what is less likely than this is not
 MOST_BEFORE_OF = 2  # words of a name that a size may follow
 WIDE = 10.0  # an interval of more than this times the value leaves the value unknown
 
@@ -21,6 +22,12 @@ WIDE = 10.0  # an interval of more than this times the value leaves the value un
 def likely_causes(diagnosis: Json) -> list[Json]:
     """The causes that the data support, in their order: the accepted ones, and those that are probable."""
     return [cause for cause in diagnosis["causes"] if is_likely(cause)]
+
+
+def may_be(cause: Json) -> bool:
+    """Whether a term of the written network may be what it is called: else it makes up for something unknown."""
+    chance = cause.get("presence", cause.get("probability"))
+    return chance is None or bool(chance >= RARE) or is_likely(cause)
 
 
 def cause_phrase(cause: Json) -> str:

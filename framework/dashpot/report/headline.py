@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from dashpot.report.cause_words import as_sure_as_it_is, cause_phrase, likely_causes, named, or_rivals, probably
+from dashpot.report.cause_words import as_sure_as_it_is, cause_phrase, likely_causes, may_be, named, or_rivals, probably
 from dashpot.report.faults import told_faults
 from dashpot.report.grids import (
     cause_title,
@@ -23,6 +23,7 @@ Json = Mapping[str, Any]
 # where an error is taken from, best first
 RUNS = {"held_out": "held-out runs", "train": "training runs", "all": "all runs"}
 
+UNKNOWN = "what was added makes up for a part of the force, and nothing tells what it is"
 MOST = 0.9  # of an error: no longer only a part of it
 MOST_HIDDEN = 3  # causes told by name
 MOST_WORDS = 25  # of a short headline
@@ -88,15 +89,16 @@ def short_headline(diagnosis: Json) -> str:
 def _titles(diagnosis: Json) -> list[str]:
     """The causes that are told, each as sure as it is; all that the error resembles where nothing explains it."""
     if diagnosis["verdict"] == "unexplained":
-        return [cause_title(cause) for cause in diagnosis["causes"]]
+        return [cause_title(cause) for cause in diagnosis["causes"] if may_be(cause)]
     likely = [probably(cause, cause_title(cause)) for cause in likely_causes(diagnosis)]
     return likely or (_resembled(diagnosis) if diagnosis["verdict"] == "ambiguous" else [])
 
 
 def _resembled(diagnosis: Json) -> list[str]:
-    """All that the error resembles: the causes in the file, and what may stand in their places."""
-    rivals = [other for cause in diagnosis["causes"] for other in cause.get("indistinguishable_from") or []]
-    causes = [*diagnosis["causes"], *({"cause": word} for word in rivals)]
+    """All that the error resembles: the causes in the file that may be it, and what may stand in their places."""
+    found = [cause for cause in diagnosis["causes"] if may_be(cause)]
+    rivals = [other for cause in found for other in cause.get("indistinguishable_from") or []]
+    causes = [*found, *({"cause": word} for word in rivals)]
     return list(dict.fromkeys(cause_title(cause) for cause in causes))
 
 
@@ -121,7 +123,8 @@ def _without_names(verdict: str, errors: Errors, count: int) -> str:
         return "The measurement is at fault first."
     if verdict == "nothing_missing":
         return "Nothing is missing: no candidate cause is supported by the data."
-    return f"{_short_error(errors)}: {f'{count} causes are named' if count else 'no known cause fits'}."
+    none = "the cause is not identifiable from these data" if verdict == "ambiguous" else "no known cause fits"
+    return f"{_short_error(errors)}: {f'{count} causes are named' if count else none}."
 
 
 def _short_error(errors: Errors) -> str:
@@ -226,9 +229,10 @@ def _stands_in(causes: list[Json]) -> str:
 
 def _unexplained(diagnosis: Json, errors: Errors) -> str:
     missing = "something is missing in the model, and no known cause fits it"
-    alike = [or_rivals(cause) for cause in diagnosis["causes"]]
+    alike = [or_rivals(cause) for cause in diagnosis["causes"] if may_be(cause)]
     left = f", with which {quantity(errors.after, 'N')} remain" if errors.after is not None else ""
-    resembled = f"; it resembles {listed(alike)}{left}" if alike else ""
+    told = f"it resembles {listed(alike)}" if alike else UNKNOWN
+    resembled = f"; {told}{left}" if diagnosis["causes"] else ""
     return f"{error_phrase(errors)}: {missing}{resembled}{_leftover(diagnosis)}."
 
 
@@ -244,7 +248,9 @@ def _ambiguous(diagnosis: Json, errors: Errors) -> str:
     """What has no rival comes first; causes that fit alike explain the rest of it."""
     rivals, likely = _rivals(diagnosis), likely_causes(diagnosis)
     if len(rivals) < 2:
-        told = f", {named(likely)}" if likely else f"; it resembles {' or '.join(_resembled(diagnosis))}"
+        resembled = _resembled(diagnosis)
+        else_told = f"; it resembles {' or '.join(resembled)}" if resembled else f"; {UNKNOWN}"
+        told = f", {named(likely)}" if likely else else_told
         return f"{error_phrase(errors)}: the cause is not identifiable from these data{told}."
     alone = [cause for cause in likely if not cause.get("indistinguishable_from")]
     known = [cause_title(cause) for cause in alone]

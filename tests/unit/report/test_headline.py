@@ -8,7 +8,7 @@ import pytest
 from unit.report.report_samples import comparison, diagnosis, friction, relaxation
 
 from dashpot.report.comparison import comparison_headline
-from dashpot.report.grids import parameter_texts
+from dashpot.report.grids import parameter_texts, unnamed_grid
 from dashpot.report.headline import SENTENCES, beside_references, headline, short_headline
 from dashpot.report.look import look_headline
 
@@ -135,6 +135,24 @@ def test_what_an_unexplained_error_resembles_is_numbered_where_it_has_rivals():
         "it resembles (1) relaxation, (2) a valve or delay or power law damping and (3) dry friction or creep, with"
         in said
     )
+
+
+def test_what_is_less_likely_than_one_in_ten_is_not_what_the_error_resembles():
+    """It stays in the table, with its number."""
+    unlikely = friction(accepted=False, standing="resembles", presence=0.002, indistinguishable_from=["clearance"])
+    other = relaxation(standing="resembles", presence=0.3)
+    told = diagnosis(verdict="unexplained", causes=[other, unlikely])
+    assert headline(told).endswith("; it resembles relaxation, with which 14.6 N remain.")
+    assert short_headline(told).endswith("it resembles relaxation.")
+    alone = diagnosis(verdict="unexplained", causes=[unlikely])
+    assert headline(alone).endswith(
+        "; what was added makes up for a part of the force, and nothing tells what it is, with which 14.6 N remain."
+    )
+    assert short_headline(alone).endswith("no known cause fits.")
+    open_end = diagnosis(verdict="ambiguous", causes=[unlikely])
+    assert "friction" not in headline(open_end) and "nothing tells what it is." in headline(open_end)
+    assert short_headline(open_end).endswith(": the cause is not identifiable from these data.")
+    assert [row["cause"] for row in unnamed_grid(told).rows] == ["relaxation", "dry friction"]
 
 
 def test_ambiguous_names_all_rivals():
