@@ -20,9 +20,9 @@ from dashpot.report.grids import (
 )
 from dashpot.report.headline import RUNS
 from dashpot.report.parts import Grid, KeyFigures, Notice, Page, Part, Picture, Section
-from dashpot.report.readable import counted_words
+from dashpot.report.readable import above_floor, counted_words
 from dashpot.report.shapes import shape_figures
-from dashpot.text.digits import number, quantity, shown_with_unit
+from dashpot.text.digits import quantity, shown_with_unit
 
 Json = Mapping[str, Any]
 
@@ -60,7 +60,7 @@ def closeness(error: float, floor: float | None) -> str:
     """An error in N against the noise floor."""
     if not floor:
         return f"{quantity(error, 'N')} (noise floor unknown)."
-    return f"{quantity(error, 'N')}, {number(error / floor, 2)} × the noise floor ({quantity(floor, 'N')})."
+    return f"{quantity(error, 'N')}, {above_floor(error, floor)} ({quantity(floor, 'N')})."
 
 
 def best_model(comparison: Json) -> Json | None:

@@ -15,8 +15,8 @@ from dashpot.report.grids import (
     explainable_value,
     floor_value,
 )
-from dashpot.report.readable import join, listed, percent
-from dashpot.text.digits import number, quantity
+from dashpot.report.readable import above_floor, join, listed, percent
+from dashpot.text.digits import quantity
 
 Json = Mapping[str, Any]
 
@@ -130,7 +130,7 @@ def _without_names(verdict: str, errors: Errors, count: int) -> str:
 def _short_error(errors: Errors) -> str:
     if errors.before is None:
         return "The RMSE is unknown"
-    floor = f", {number(errors.before / errors.floor, 2)} × the noise floor" if errors.floor else ""
+    floor = f", {above_floor(errors.before, errors.floor)}" if errors.floor else ""
     return f"RMSE {quantity(errors.before, 'N')}{floor}"
 
 
@@ -140,8 +140,8 @@ def error_phrase(errors: Errors) -> str:
         return "The RMSE is unknown"
     if not errors.floor:
         return f"RMSE {quantity(errors.before, 'N')} (noise floor unknown)"
-    ratio = number(errors.before / errors.floor, 2)
-    return f"RMSE {quantity(errors.before, 'N')}, {ratio} × the noise floor ({quantity(errors.floor, 'N')})"
+    above = above_floor(errors.before, errors.floor)
+    return f"RMSE {quantity(errors.before, 'N')}, {above} ({quantity(errors.floor, 'N')})"
 
 
 def beside_references(diagnosis: Json) -> str:
@@ -215,7 +215,7 @@ def _partly_explained(diagnosis: Json, errors: Errors) -> str:
     causes = likely_causes(diagnosis)
     left = f"{quantity(errors.after, 'N')} remain unexplained"
     if errors.floor and errors.after is not None:
-        left += f", {number(errors.after / errors.floor, 2)} × the noise floor"
+        left += f", {above_floor(errors.after, errors.floor)}"
     only = "only " if errors.gain is not None and 0.0 < errors.gain <= MOST else ""
     named = only + _part(errors.gain, causes, errors.runs) if causes else "it is only partly explained"
     return f"{error_phrase(errors)}; {named}; {left}{_stands_in(causes)}{_leftover(diagnosis)}."
@@ -237,11 +237,10 @@ def _unexplained(diagnosis: Json, errors: Errors) -> str:
 
 
 def _leftover(diagnosis: Json) -> str:
-    """What the remaining residual is correlated with, and its size."""
+    """What the remaining residual is correlated with, and how much of it; nothing where that is as good as noise."""
     left = diagnosis.get("leftover") or {}
-    return (
-        f"; of the remaining residual, {number(left['size'], 2)} × the noise {left['what']}" if left.get("what") else ""
-    )
+    share = left.get("share")
+    return f"; {percent(share)} of the square of the remaining residual {left['what']}" if share else ""
 
 
 def _ambiguous(diagnosis: Json, errors: Errors) -> str:

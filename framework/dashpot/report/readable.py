@@ -8,6 +8,8 @@ from collections.abc import Sequence
 from dashpot.text.digits import MISSING, is_interval, number, number_within, typeset
 from dashpot.text.quantity import pretty
 
+FAR = 1000.0  # times the noise floor: beyond three decades the ratio says nothing of the model any more
+
 
 def set_value(value: float, unit: str) -> str:
     """An SI value somebody set (an amplitude, the edge of a band), without zeros nobody wrote: "0.5 mm"."""
@@ -27,6 +29,12 @@ def percent(share: float | None, digits: int = 2) -> str:
     if share is None or not math.isfinite(share):
         return MISSING
     return f"{number(100.0 * share, digits)} %"
+
+
+def above_floor(error: float, floor: float) -> str:
+    """An error against the noise floor, both in N: "4.2 × the noise floor", or that it is far above it."""
+    ratio = error / floor
+    return f"{number(ratio, 2)} × the noise floor" if ratio <= FAR else "far above the noise floor"
 
 
 def counted_words(count: int, word: str) -> str:

@@ -7,7 +7,7 @@ import re
 import pytest
 from unit.report.report_samples import comparison, diagnosis, friction, relaxation
 
-from dashpot.report.comparison import comparison_headline
+from dashpot.report.comparison import closeness, comparison_headline
 from dashpot.report.grids import parameter_texts, unnamed_grid
 from dashpot.report.headline import SENTENCES, beside_references, headline, short_headline
 from dashpot.report.look import look_headline
@@ -108,13 +108,25 @@ def test_partly_explained_says_what_is_left():
 
 
 def test_what_is_left_is_described():
-    left = {"score": 36.0, "size": 0.2134, "what": "is a line at 48.7 Hz"}
+    left = {"score": 36.0, "size": 0.2134, "what": "is a line at 48.7 Hz", "share": 0.0436}
     rmse = {"before": {"held_out": 61.0}, "after": {"held_out": 3.0}}
     partly = headline(diagnosis(verdict="partly_explained", rmse=rmse, leftover=left))
     assert "; 95 % of it is dry friction" in partly
     unexplained = headline(diagnosis(verdict="unexplained", causes=[], leftover=left))
     for said in (partly, unexplained):
-        assert said.endswith("; of the remaining residual, 0.21 × the noise is a line at 48.7 Hz.")
+        assert said.endswith("; 4.4 % of the square of the remaining residual is a line at 48.7 Hz.")
+    assert "48.7" not in headline(diagnosis(verdict="unexplained", causes=[], leftover=left | {"share": 0.0}))
+
+
+def test_an_error_far_above_the_noise_is_told_so_without_a_number_of_times():
+    far = {"value": 1.534e-4, "from": "residual"}
+    told = diagnosis(verdict="partly_explained", noise_floor=far)
+    assert headline(told).startswith("RMSE 61.0 N, far above the noise floor (0.000153 N); only 76 %")
+    assert headline(told).endswith("14.6 N remain unexplained, far above the noise floor.")
+    assert short_headline(told).startswith("RMSE 61.0 N, far above the noise floor; 76 % of it")
+    assert closeness(61.0, 1.534e-4) == "61.0 N, far above the noise floor (0.000153 N)."
+    near = diagnosis(noise_floor={"value": 0.0611, "from": "residual"})
+    assert headline(near).startswith("RMSE 61.0 N, 998 × the noise floor (0.0611 N)")
 
 
 def test_unexplained_tells_what_it_resembles_and_does_not_guess():
