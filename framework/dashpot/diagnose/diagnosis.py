@@ -244,8 +244,8 @@ class Diagnosis(Findings):
         return found
 
     def limits(self) -> list[dict[str, Any]]:
-        """The detection limits of all causes; nothing where the RMSE of the model exceeds the noise."""
-        if not self._near_floor:
+        """The detection limits of all causes; nothing where the RMSE of the model, seen or left out, is no noise."""
+        if not self._leaves_noise:
             return []
         return [
             _limit(candidate.cause.word, candidate.cause.about, candidate.site.words if candidate.site else None, limit)

@@ -261,6 +261,11 @@ class Findings:
         return self._trained <= NEAR_FLOOR * self._floor
 
     @property
+    def _leaves_noise(self) -> bool:
+        """Whether what is left of runs that took no part in the fit is near the noise as well."""
+        return self._unseen <= NEAR_FLOOR * self._floor
+
+    @property
     def _beyond_noise(self) -> bool:
         """Whether the error is far more than what repeated runs differ by."""
         return self.setting.floor.source == "repeats" and not self._near_floor

@@ -211,6 +211,18 @@ def test_at_the_noise_floor_only_a_line_is_no_noise(line, verdict):
 
 
 @pytest.mark.parametrize(
+    ("trained", "left_out", "given"), [(3.9, 3.9, True), (3.9, None, True), (3.9, 4.1, False), (4.1, 3.9, False)]
+)
+def test_detection_limits_hold_where_runs_left_out_are_predicted_to_the_noise(monkeypatch, trained, left_out, given):
+    """The noise floor is 2 N; both errors have to be within twice that."""
+    asked = []
+    monkeypatch.setattr("dashpot.diagnose.diagnosis.find_limits", lambda *told: asked.append(told) or [])
+    known = {"_trained": trained, "left_out": left_out, "_floor": 2.0, "relevance": 0.0}
+    made = type("Made", (Diagnosis,), {**known, "pursuit": SimpleNamespace(look=None)})
+    assert object.__new__(made).limits() == [] and bool(asked) is given
+
+
+@pytest.mark.parametrize(
     ("mine", "theirs", "trained", "floor", "fails"),
     [
         (12.0, 6.0, 2.0, 2.5, True),
