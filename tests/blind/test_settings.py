@@ -63,6 +63,7 @@ def test_a_law_whose_numbers_follow_a_setting_is_found_with_it(seed):
     names = {cause["cause"] for cause in found["causes"] if cause["accepted"]}
     assert "setting_dependence" in names and names & {"relaxation", "compliant_damper"}
     assert not any(cause["class"] == "measurement" for cause in found["causes"] if cause["accepted"])
+    assert all("on temperature" in each["title"] for each in found["causes"] if each["cause"] == "setting_dependence")
     assert found["rmse"]["after"]["train"] < 2.0 * NOISE
 
 

@@ -19,7 +19,7 @@ from dashpot.diagnose.findings import Findings
 from dashpot.diagnose.front import FORM_ERROR
 from dashpot.diagnose.gain import measure_gain
 from dashpot.diagnose.limits import Limit, find_limits
-from dashpot.diagnose.named import STANDINGS, NamedCause, slots_of
+from dashpot.diagnose.named import STANDINGS, NamedCause, about_of, slots_of
 from dashpot.diagnose.next_run import measurement_between
 from dashpot.fit.result import Errors, floor_of
 from dashpot.model.network import NetworkSpec
@@ -65,6 +65,7 @@ class Diagnosis(Findings):
             rivals,
             evidence_of,
             told(terms[0]) if evidence_of else "",
+            about_of(model, name, self.written),
         )
 
     def _worth(self, without: NetworkSpec | None) -> tuple[Any, float | None]:
@@ -107,6 +108,7 @@ class Diagnosis(Findings):
                     (),
                     mine[0].evidence_of,
                     proof,
+                    mine[0].kind.cause.about,
                 )
             )
         return found

@@ -22,7 +22,7 @@ from dashpot.data.correction import Correction, corrected_text
 from dashpot.diagnose.channel import Accused
 from dashpot.diagnose.front import FORM_ERROR
 from dashpot.diagnose.leftover import Leftover
-from dashpot.diagnose.named import standing_of
+from dashpot.diagnose.named import about_of, standing_of
 from dashpot.diagnose.next_run import NextRun
 from dashpot.diagnose.polish import left_out_error
 from dashpot.diagnose.pursuit import Pursuit
@@ -153,13 +153,17 @@ class Findings:
             "version": dashpot.__version__,
             "predecessor": self.model.name,
         }
-        sure = {term.title: standing_of(self.presence(term)) for term in self.pursuit.best.model.causes}
+        sure = {self._title(term): standing_of(self.presence(term)) for term in self.pursuit.best.model.causes}
         plain = "fitted to corrected runs" if self.accused else "its curves refined to all runs"
         what = "extended by a diagnosis" if sure else "without what may go" if self.spare else plain
         told = [f"{IN_FILES[standing]}: {title}" for title, standing in sure.items()]
         head = [f"{self.model.name}, {what}.", *told]
         text = fill_numbers(self.pursuit.best.model.declared, self.final, record, self.fit.seen)
         return rename(text, self.extended_name.removesuffix(".yaml"), [*head, f"predecessor: {self.model.name}"])
+
+    def _title(self, term: Term) -> str:
+        about = about_of(self.pursuit.best.model, term.name, self.final)
+        return f"{about} {term.site.words}" if term.site else about
 
     @property
     def corrections(self) -> dict[str, Correction]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -12,7 +12,7 @@ from dashpot.contract.cause import Cause
 from dashpot.diagnose.channel import Accused
 from dashpot.diagnose.gain import Gain
 from dashpot.diagnose.pursuit import NAMED
-from dashpot.diagnose.term import Term
+from dashpot.diagnose.term import Model, Term
 from dashpot.model.network import NetworkSpec, Value
 from dashpot.model.sites import Site
 from dashpot.model.slopes import RUN, per_run
@@ -31,6 +31,35 @@ def standing_of(presence: float) -> str:
     return "probable" if presence > 1.0 - presence else "resembles"
 
 
+def about_of(model: Model, name: tuple[str, str], network: NetworkSpec) -> str:
+    """What a cause of a structure is, with what of its network depends on which settings where that is what it is."""
+    mine = [number for number, term in enumerate(model.terms) if term.name == name]
+    first = next(term for term in model.causes if term.name == name)
+    paths = {path for number in mine for path in model.owned[number]}
+    return (first.cause.changes_numbers and dependence(network, paths)) or first.about
+
+
+def dependence(network: NetworkSpec, paths: Collection[str]) -> str:
+    """What depends on which settings by numbers at some paths; nothing where these are of no dependence.
+
+    A branch is called by its name; what the same paths brought along with its dependence, by what it is.
+    """
+    things: dict[str, list[str]] = {}
+    for slot in network.slots():
+        over = slot.value.over
+        if over and any(f"{slot.path}{ending}" in paths for ending in over.endings):
+            branch, _, key = slot.path.rpartition(".")
+            thing = key if slot.path in paths else branch.rpartition(".")[2]
+            things.setdefault(over.word, []).append(thing.replace("_", " "))
+    told = [f"{_and(list(dict.fromkeys(each)))} on {setting.replace('_', ' ')}" for setting, each in things.items()]
+    return f"dependence of {_and(told)}" if told else ""
+
+
+def _and(words: Sequence[str]) -> str:
+    *head, tail = words
+    return f"{', '.join(head)} and {tail}" if head else tail
+
+
 @dataclass(frozen=True, eq=False)
 class NamedCause:
     """A cause with the parameters that it brought, by path, or with the faults of single runs that it stands for.
@@ -39,7 +68,7 @@ class NamedCause:
     for a fault of the measurement.
     ``gain`` is what the final files gain by it, ``removal`` the share by which the error grows where it is taken out
     and the rest refitted, both on runs that took no part; ``nats`` is what it predicts of training runs left out,
-    ``rivals`` the words of what may stand in its place.
+    ``rivals`` the words of what may stand in its place, ``about`` what it is.
     """
 
     cause: type[Cause]
@@ -55,6 +84,7 @@ class NamedCause:
     rivals: tuple[str, ...]
     evidence_of: str | None
     proof: str
+    about: str
 
     @property
     def accepted(self) -> bool:
@@ -74,12 +104,7 @@ class NamedCause:
     @property
     def title(self) -> str:
         """What it is, and where."""
-        return self.terms[0].title if self.terms else self.cause.about
-
-    @property
-    def about(self) -> str:
-        """What it is."""
-        return self.terms[0].about if self.terms else self.cause.about
+        return f"{self.about} {self.site.words}" if self.site else self.about
 
     @property
     def branch(self) -> str | None:

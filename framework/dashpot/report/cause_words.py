@@ -14,6 +14,7 @@ Json = Mapping[str, Any]
 
 NOTHING: Mapping[str, str] = MappingProxyType({})
 SIDES = {"specimen": "missing in the model", "measurement": "a fault of the measurement"}
+PROBABLY = "probably "
 RARE = 0.1  # as surely as an accepted cause is at work, with nine in ten, what is less likely than this is not
 MOST_BEFORE_OF = 2  # words of a name that a size may follow
 WIDE = 10.0  # an interval of more than this times the value leaves the value unknown
@@ -102,4 +103,4 @@ def or_rivals(cause: Json, marks: Mapping[str, str] = NOTHING) -> str:
 
 def probably(cause: Json, words: str) -> str:
     """What is said of a cause, as probable where it is not accepted."""
-    return words if cause.get("accepted") else f"probably {words}"
+    return words if cause.get("accepted") else f"{PROBABLY}{words}"

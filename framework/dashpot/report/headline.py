@@ -7,7 +7,16 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from dashpot.report.cause_words import as_sure_as_it_is, cause_phrase, likely_causes, may_be, named, or_rivals, probably
+from dashpot.report.cause_words import (
+    PROBABLY,
+    as_sure_as_it_is,
+    cause_phrase,
+    likely_causes,
+    may_be,
+    named,
+    or_rivals,
+    probably,
+)
 from dashpot.report.faults import told_faults
 from dashpot.report.grids import (
     cause_title,
@@ -15,7 +24,7 @@ from dashpot.report.grids import (
     explainable_value,
     floor_value,
 )
-from dashpot.report.readable import above_floor, join, listed, percent
+from dashpot.report.readable import above_floor, counted_words, join, listed, percent
 from dashpot.text.digits import quantity
 
 Json = Mapping[str, Any]
@@ -74,16 +83,23 @@ def headline(diagnosis: Json) -> str:
 def short_headline(diagnosis: Json) -> str:
     """The verdict in 25 words at most: the error, and as many causes by name as there is room for."""
     errors, verdict = read_errors(diagnosis), diagnosis["verdict"]
-    named = _titles(diagnosis)
+    names = _titles(diagnosis)
     if verdict == "nothing_missing" and errors.written is not None and errors.floor:
         return _at_floor(errors)
     start, end = _short_frame(verdict, errors)
-    for count in range(len(named), 0, -1):
-        more = [f"{len(named) - count} more"] if count < len(named) else []
-        told = f"{start}{join([*named[:count], *more])}{end}."
-        if len(told.split()) <= MOST_WORDS:
-            return told
-    return _without_names(verdict, errors, len(named))
+    # what remains is told where there is room for it beside a name
+    for tail in dict.fromkeys((end, "")):
+        for count in range(len(names), 0, -1):
+            told = f"{start}{join([*names[:count], *_more(names[count:])])}{tail}."
+            if len(told.split()) <= MOST_WORDS:
+                return told
+    return _without_names(verdict, errors, names)
+
+
+def _more(names: Sequence[str]) -> list[str]:
+    """How many more there are, as sure as they are."""
+    probably = all(name.startswith(PROBABLY) for name in names)
+    return [f"{PROBABLY if probably else ''}{len(names)} more"] if names else []
 
 
 def _titles(diagnosis: Json) -> list[str]:
@@ -118,13 +134,23 @@ def _short_frame(verdict: str, errors: Errors) -> tuple[str, str]:
     return f"{error}{share}", left
 
 
-def _without_names(verdict: str, errors: Errors, count: int) -> str:
+def _without_names(verdict: str, errors: Errors, names: Sequence[str]) -> str:
     if verdict == "bad_data":
         return "The measurement is at fault first."
     if verdict == "nothing_missing":
         return "Nothing is missing: no candidate cause is supported by the data."
     none = "the cause is not identifiable from these data" if verdict == "ambiguous" else "no known cause fits"
-    return f"{_short_error(errors)}: {f'{count} causes are named' if count else none}."
+    told = _counted(names) if names and verdict != "unexplained" else none
+    return f"{_short_error(errors)}: {told}."
+
+
+def _counted(names: Sequence[str]) -> str:
+    """How many causes are named, and how many are probable."""
+    probable = sum(name.startswith(PROBABLY) for name in names)
+    sure = len(names) - probable
+    told = [f"{counted_words(sure, 'cause')} {'is' if sure == 1 else 'are'} named"] if sure else []
+    many = f"{probable} more" if sure else counted_words(probable, "cause")
+    return ", ".join([*told, *([f"{many} {'is' if probable == 1 else 'are'} probable"] if probable else [])])
 
 
 def _short_error(errors: Errors) -> str:

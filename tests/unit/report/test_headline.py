@@ -36,6 +36,19 @@ def test_the_short_headline_names_as_many_causes_as_there_is_room_for():
     assert left.endswith("N remain.")
 
 
+def test_the_short_headline_counts_what_is_named_apart_from_what_is_probable():
+    long = "a title that is far too long to be told beside the size of the error in the few words of a headline"
+    sure, probable = friction(title=long), relaxation(title=long, standing="probable")
+    assert short_headline(diagnosis(causes=[sure, probable])).endswith(": 1 cause is named, 1 more is probable.")
+    assert short_headline(diagnosis(causes=[sure] * 2)).endswith(": 2 causes are named.")
+    assert short_headline(diagnosis(causes=[probable] * 3)).endswith(": 3 causes are probable.")
+    half = [friction(title="dependence of friction on yoke"), relaxation(title=long, standing="probable")]
+    assert short_headline(diagnosis(causes=half)).endswith("is dependence of friction on yoke and probably 1 more.")
+    room = friction(title="dependence of velocity dependent friction and friction on yoke and pressure")
+    said = short_headline(diagnosis(verdict="partly_explained", causes=[room]))
+    assert said.endswith("on yoke and pressure.")
+
+
 @pytest.mark.parametrize("verdict", ["explained", "nothing_missing", "unexplained"])
 def test_what_may_go_of_the_diagnosed_network_is_told(verdict):
     plain = headline(diagnosis(verdict=verdict))
