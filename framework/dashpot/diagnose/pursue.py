@@ -196,16 +196,28 @@ class Pursuer:
         return [trial for few in found for trial in few]
 
     def pruned(self, look: Look) -> tuple[Scored, tuple[Without, ...]]:
-        """The structure without the causes that are not worth their place, the weakest first, and without each one."""
+        """The structure without the causes that are not worth their place, the weakest first, and without each one.
+
+        What would not be what it is called without a cause goes with it, and counts to what that one is worth.
+        """
         odds = look.odds
         present = self.trials.scored(look, self.trials.refitter.fit(look.model, look.noise), odds)
         while True:
             seen = self.trials.scores_of(look, present.model)
             found = self._without(look, present, [(term,) for term in present.model.causes], odds)
-            worth = [self._worth(seen, one.terms[0], present, one.scored) for one in found]
+            rest = [self._of_its_name(look, one.scored, odds) for one in found]
+            worth = [self._worth(seen, one.terms[0], present, left) for one, left in zip(found, rest, strict=True)]
             if min(worth, default=1.0) >= NAMED:
                 return present, self._without_causes(look, present, odds, found)
-            present = min(zip(worth, (one.scored for one in found), strict=True), key=_weakness)[1]
+            present = min(zip(worth, rest, strict=True), key=_weakness)[1]
+
+    def _of_its_name(self, look: Look, without: Scored, odds: Odds) -> Scored:
+        """A structure from which a term has gone, without those that are not what they are called without it."""
+        refitter, model = self.trials.refitter, without.model
+        while gone := [term for k, term in enumerate(model.terms) if not term.admits(model.numbers_of(k))]:
+            kept = refitter.writable(model, [term for term in model.terms if term not in gone])
+            model = refitter.refit(model, kept, look.noise)
+        return without if model is without.model else self.trials.scored(look, model, odds)
 
     def _without(self, look: Look, present: Scored, each: Sequence[tuple[Term, ...]], odds: Odds) -> list[Without]:
         """The structure without each of some sets of terms, refitted.
