@@ -206,6 +206,7 @@ def changed(setting: Setting, numbers: Sequence[Number]) -> Suspect:
         quantity="change over the settings",
         unit="1",
         of=tuple(f"{number.path} over {setting.title}" for number in numbers),
+        dependent=tuple(number.path for number in numbers),
     )
 
 
@@ -232,6 +233,7 @@ def tabulated(setting: Setting, number: Number) -> Suspect:
         quantity="change of the factor",
         unit="1",
         of=(f"{number.path} over {setting.title}",) * len(places),
+        dependent=(number.path,) * len(places),
     )
 
 

@@ -105,7 +105,9 @@ class Suspect:
     belong to this cause: the borders between causes.
     ``of_motion`` promises that the columns depend on the motion of a run alone: they are computed once. Where forms of
     a cause change different things, ``of`` (m,) names for each place what: the law that acts may be another form of
-    a law of the same thing only. ``about`` says what the form is, where the words of its cause do not fit it.
+    a law of the same thing only. ``dependent`` (m,) names for each place the number of the network, as
+    ``oil.damping``, that follows a setting or a channel: a number follows one thing only, and terms that make it follow
+    two exclude each other. ``about`` says what the form is, where the words of its cause do not fit it.
 
     Examples:
         >>> suspect.form, suspect.quantity, suspect.unit, len(suspect.grid)
@@ -127,12 +129,18 @@ class Suspect:
     admits: Callable[[Mapping[str, float]], bool] = lambda numbers: True
     of_motion: bool = False
     of: tuple[str, ...] = ()
+    dependent: tuple[str, ...] = ()
     about: str = ""
 
     @property
     def each_of(self) -> tuple[str, ...]:
         """For each place (m,) of the grid what it changes; nothing where forms of the cause all change the same."""
         return self.of or ("",) * len(self.grid)
+
+    @property
+    def each_dependent(self) -> tuple[str, ...]:
+        """For each place (m,) of the grid the number that follows a setting or a channel; nothing where none does."""
+        return self.dependent or ("",) * len(self.grid)
 
 
 @dataclass(frozen=True)

@@ -106,7 +106,7 @@ class Refitter:
         if change is not None and fresh:
             for share in SHARES:
                 part = [term if term in model.terms else term.scaled(share) for term in terms]
-                with suppress(InputError):  # a small share may be less than an element admits
+                with suppress(InputError):  # a cause may have no text for a small share
                     starts.append(self._start(model, part, model.moved(share * change)))
         declared, owned, start = starts[0]
         objective = self._objective(start, noise.counted)
@@ -177,6 +177,14 @@ class Refitter:
     def without(self, model: Model, terms: Sequence[Part]) -> NetworkSpec:
         """The network of a model with some of its terms only, all numbers as they are."""
         return self._start(model, self.writable(model, terms), model.fitted)[2]
+
+    def refusal(self, model: Model, terms: Sequence[Part]) -> str:
+        """Why some terms cannot be written one after the other; nothing where they can."""
+        try:
+            self._written(model.base, terms)
+        except InputError as error:
+            return str(error)
+        return ""
 
     def writable(self, model: Model, terms: Sequence[Part]) -> tuple[Part, ...]:
         """Those of some terms that can be written without the others: one that changes another goes with it."""

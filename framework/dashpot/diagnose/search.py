@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import combinations
 
@@ -9,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.diagnose.candidate import Candidate
+from dashpot.diagnose.exclusive import can_be_beside, dependent_numbers
 from dashpot.diagnose.front import NONE
 from dashpot.diagnose.score import Added, Scores, Structure, steadied
 from dashpot.diagnose.term import Term
@@ -59,7 +61,7 @@ def moves_from(
         less = Structure(structure.dropped | set(going), structure.added)
         if len(structure.added) < MOST_ADDED:
             found |= {Structure(less.dropped, less.added | {one}) for one in additions(scores, less)[:4]}
-    return found
+    return {one for one in found if can_be_beside(scores, one)}
 
 
 @dataclass(frozen=True, eq=False)
@@ -73,11 +75,12 @@ class _Projected:
 
 def additions(scores: Scores, structure: Structure) -> list[Added]:
     """The candidates that explain most beside a structure (score test), the best places of each; best first."""
-    left = _project(scores, structure)
+    left, taken = _project(scores, structure), dependent_numbers(scores, structure)
     used = {k for k, _ in structure.added} | _gone(scores, structure) | _same_fault(scores, structure)
     found = []
     for k, candidate in enumerate(scores.look.candidates):
-        if k not in used and (best := _places(candidate, left)):
+        open_to = [number not in taken for number in candidate.suspect.each_dependent]
+        if k not in used and (best := _places(candidate, left, open_to)):
             added = Added(k, best[1])
             found.append((best[0] - scores.joining(added), added))
     found.sort(key=lambda pair: -pair[0])
@@ -88,12 +91,13 @@ def other_forms(scores: Scores, number: int) -> list[Structure]:
     """A term of the model in other forms of its cause or of more parts, where these explain most; best first."""
     term, gone = scores.look.model.terms[number], frozenset({number})
     assert isinstance(term, Term)
-    left, found = _project(scores, Structure(gone)), []
+    left, taken, found = _project(scores, Structure(gone)), dependent_numbers(scores, Structure(gone)), []
     for k, candidate in enumerate(scores.look.candidates):
-        best = _places(candidate, left) if candidate.name == term.name else None
-        if best and term.changes.issuperset(candidate.suspect.each_of[place] for place in best[1]):
-            if candidate.suspect.form != term.suspect.form or len(best[1]) > len(term.atoms):
-                found.append(Structure(gone, frozenset({Added(k, best[1])})))
+        changed = zip(candidate.suspect.each_of, candidate.suspect.each_dependent, strict=True)
+        same = [thing in term.changes and number not in taken for thing, number in changed]
+        best = _places(candidate, left, same) if candidate.name == term.name else None
+        if best and (candidate.suspect.form != term.suspect.form or len(best[1]) > len(term.atoms)):
+            found.append(Structure(gone, frozenset({Added(k, best[1])})))
     return sorted(found, key=scores.score)
 
 
@@ -135,10 +139,12 @@ def _project(scores: Scores, structure: Structure) -> _Projected:
     return _Projected(right, left, 0.5 * samples / max(square, 1e-300))
 
 
-def _places(candidate: Candidate, left: _Projected) -> tuple[float, tuple[int, ...]] | None:
-    """The places of a candidate that explain most together, and the gain in nats less that of chance."""
+def _places(candidate: Candidate, left: _Projected, open_to: Sequence[bool]) -> tuple[float, tuple[int, ...]] | None:
+    """The places of a candidate, of those ``open_to`` it, that explain most together, and the gain in nats less that
+    of chance.
+    """
     suspect, own = candidate.suspect, np.arange(candidate.columns.start, candidate.columns.stop)
-    alive = np.flatnonzero(np.diag(left.gram)[own] > LEFT)
+    alive = np.flatnonzero((np.diag(left.gram)[own] > LEFT) & open_to)
     if not alive.size:
         return None
     if suspect.joint:

@@ -19,6 +19,7 @@ from dashpot.model.network import Branch, Group, NetworkSpec, branch_slots
 from dashpot.model.patch import remove_branch
 from dashpot.model.reading import build_network
 from dashpot.model.sites import Site
+from dashpot.model.starts import starts_within_bounds
 from dashpot.text.document import Document
 
 Array = NDArray[np.float64]
@@ -72,6 +73,12 @@ class Term:
         """What it changes, where the forms of its cause change different things."""
         each = dict(zip(self.suspect.grid, self.suspect.each_of, strict=True))
         return frozenset(each[place] for _, place in self.atoms)
+
+    @property
+    def dependent(self) -> frozenset[str]:
+        """The numbers of the network that follow a setting or a channel by it."""
+        each = dict(zip(self.suspect.grid, self.suspect.each_dependent, strict=True))
+        return frozenset(each[place] for _, place in self.atoms) - {""}
 
     def scaled(self, share: float) -> Term:
         """The term with all strengths times ``share``."""
@@ -271,10 +278,13 @@ def extended(
 ) -> tuple[NetworkSpec, tuple[str, ...]]:
     """A network extended by a term, and the paths of the parameters that it brought.
 
-    Raises InputError for a term that cannot be written into the network.
+    The strengths of a term are computed to first order; where an element does not admit what they come to, its numbers
+    begin at the nearer end of their bounds. Raises InputError for a term that cannot be written into the network.
     """
     known = {slot.path for slot in network.slots()}
     document = Document.parse(term.suspect.extend(network.text, term.atoms), network.file, ours=True)
+    if (text := starts_within_bounds(document, elements)) != document.text:
+        document = Document.parse(text, network.file, ours=True)
     declared = build_network(document, elements)
     return declared, tuple(slot.path for slot in declared.slots() if slot.path not in known)
 

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.diagnose.evidence import has_evidence, is_determined
+from dashpot.diagnose.exclusive import without_rivals
 from dashpot.diagnose.folds import Folds
 from dashpot.diagnose.location import of_names
 from dashpot.diagnose.look import Doubt, Look, look_at
@@ -37,7 +38,9 @@ class _Asked(NamedTuple):
 
 @dataclass(eq=False)
 class Trials:
-    """Refits on ``folds``, beside faults that each run may have; ``refused`` collects what could not be written."""
+    """Refits on ``folds``, beside faults that each run may have; ``refused`` collects defects of causes: what could not
+    be written into the network for which a cause proposed it.
+    """
 
     refitter: Refitter
     folds: Folds
@@ -63,21 +66,20 @@ class Trials:
         return found
 
     def _each(self, scores: Scores, asked: Sequence[_Asked]) -> list[Scored | None]:
-        """Each of some models with other terms, refitted.
-
-        What could not be written is told, but for a term that only lacks another one, which is to go.
-        """
+        """Each of some models with other terms, refitted."""
         terms = dict.fromkeys(term for one in asked for term in (*scores.look.model.terms, *one.terms))
         found = forked(partial(self._refitted, scores), asked, self.refitter.jobs, (*terms,))
-        for one, (_, refusal) in zip(asked, found, strict=True):
-            if refusal and not self._lacks_another(one):
-                self.refused += refusals(scores.look.model.terms, one.terms, refusal)
-        return [scored for scored, _ in found]
+        for one, scored in zip(asked, found, strict=True):
+            self.refused += self._defects(one) if scored is None else []
+        return found
 
     def can_be_tried(self, scores: Scores, structure: Structure) -> bool:
-        """Whether no new term of a structure lacks another one that goes, without which it cannot be written."""
+        """Whether a structure can be written, or what cannot be is a defect of a cause, which is to be told.
+
+        Else a new term lacks another one that goes, or does not go along with one that stays.
+        """
         asked = _asked(scores, structure)
-        return self._can_be_written(asked.model, self._writable(asked)) or not self._lacks_another(asked)
+        return self._can_be_written(asked.model, self._writable(asked)) or bool(self._defects(asked))
 
     def is_as_independent(self, scores: Scores, structure: Structure) -> bool:
         """Whether a new term can be written without other causes, or the one in whose place it is cannot either."""
@@ -86,25 +88,32 @@ class Trials:
         old, new = (model.terms[number] for number in structure.dropped), terms_of(scores, structure)[-1]
         return self._can_be_written(model, [*given, new]) or not self._can_be_written(model, [*given, *old])
 
-    def _lacks_another(self, asked: _Asked) -> bool:
-        """Whether terms that cannot be written can be beside all laws of the model."""
-        laws = [term for term in asked.model.terms if not (isinstance(term, Term) and term.cause.changes_numbers)]
-        return self._can_be_written(asked.model, list(dict.fromkeys((*laws, *asked.terms))))
+    def _defects(self, asked: _Asked) -> list[str]:
+        """What to say of each new term that cannot be written into the model for which its cause proposed it.
 
-    def _refitted(self, scores: Scores, asked: _Asked) -> tuple[Scored | None, str]:
-        """A model with other terms, refitted, and why it cannot be written, if that is so."""
+        Of others nothing: they do not go along with one another, or lack one that goes.
+        """
+        model, found = asked.model, []
+        for term in asked.terms:
+            if isinstance(term, Term) and term not in model.terms:
+                reason = self.refitter.refusal(model, [*without_rivals(model, term), term])
+                found += [f"'{term.word}' could not be written into the network: {reason}"] if reason else []
+        return found
+
+    def _refitted(self, scores: Scores, asked: _Asked) -> Scored | None:
+        """A model with other terms, refitted; None where that cannot be written."""
         look, new = scores.look, {term for term in asked.terms if term not in scores.look.model.terms}
         try:
             kept = self._writable(asked)
             model = self.refitter.refit(asked.model, kept, look.noise, asked.moves)
             found = self._tenable(look, model, new)
-        except InputError as error:
-            return None, str(error)
+        except InputError:
+            return None
         if found is None:
-            return None, ""
+            return None
         seen, lacking = found
         unproven = frozenset(one.form for one in lacking)
-        return replace(scored_by(seen, scores.odds), unproven=unproven), ""
+        return replace(scored_by(seen, scores.odds), unproven=unproven)
 
     def _writable(self, asked: _Asked) -> Sequence[Part]:
         """All terms, without those of the model that cannot be written any more beside new ones."""
@@ -176,14 +185,6 @@ class Trials:
 
 def _asked(scores: Scores, structure: Structure) -> _Asked:
     return _Asked(scores.look.model, tuple(terms_of(scores, structure)), scores.moves(structure))
-
-
-def refusals(before: Sequence[Part], after: Sequence[Part], reason: str) -> list[str]:
-    """What to say of each term that could not join; nothing where others went, which it may only have lacked."""
-    if any(term not in after for term in before):
-        return []
-    words = [term.word for term in after if term not in before]
-    return [f"'{word}' could not be written into the network: {reason}" for word in words]
 
 
 def scored_by(scores: Scores, odds: Odds) -> Scored:

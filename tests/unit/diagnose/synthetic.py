@@ -33,7 +33,8 @@ def look_of(rows: Mapping[str, np.ndarray], candidates: Sequence[Candidate]) -> 
     """A look at a model without numbers; ``rows`` (1 + bank, n) by group hold the residual, then the bank."""
     grams = np.array([each @ each.T for each in rows.values()])
     bank = grams.shape[1] - 1
-    model = SimpleNamespace(terms=(), coordinates=SimpleNamespace(paths=()), owned=(), point=np.zeros(0))
+    base = SimpleNamespace(slots=lambda: ())
+    model = SimpleNamespace(terms=(), base=base, coordinates=SimpleNamespace(paths=()), owned=(), point=np.zeros(0))
     samples = np.array([float(each.shape[1]) for each in rows.values()])
     nothing, folds = np.zeros(0, dtype=int), Folds(tuple(rows), len(rows), {})
     front = front_of(grams, np.zeros(0), 0, Layout(0, 0, bank), model, candidates)

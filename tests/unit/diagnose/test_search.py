@@ -79,3 +79,14 @@ def test_candidates_that_are_left_out_do_not_join():
     others = Scores(replace(look, candidates=look.candidates[1:]))
     names = {others.look.candidates[k].cause.word for one in search(others) for k, _ in one.added}
     assert names == {"b"}
+
+
+@pytest.mark.parametrize(("dependent", "together"), [(("oil.damping",) * PLACES, False), ((), True)])
+def test_a_number_follows_one_thing_only(dependent, together):
+    """What two forms would make of one number: whichever is taken, nothing that was scored has the other one."""
+    look = look_of(
+        random_rows(2 * PLACES, {2: 0.6, 7: 0.5}), candidates_of(WORDS[:2], PLACES, dependent=dependent, most=2)
+    )
+    ranked = search(Scores(look))
+    assert any(len(one.added) == 2 for one in ranked) == together
+    assert len(ranked[0].added) == 1 + together

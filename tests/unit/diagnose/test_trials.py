@@ -4,13 +4,15 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from unit.diagnose.rig import MOTIONS, bench, causes, dataset, friction, plain, with_force
+from unit.diagnose.rig import MOTIONS, NETWORK, Made, bench, causes, dataset, friction, plain, with_force
 
+from dashpot.contract.cause import Suspect
 from dashpot.diagnose.folds import folds_of
 from dashpot.diagnose.look import look_at
 from dashpot.diagnose.score import Added, Scores, Structure
 from dashpot.diagnose.search import additions, search
 from dashpot.diagnose.trials import Trials, terms_of
+from dashpot.model.patch import add_branch
 from dashpot_causes.setting_dependence import numbers_of
 
 LIMITS = dict(zip(MOTIONS, (20.0, 60.0, 40.0, 60.0, 20.0, 40.0), strict=True))
@@ -55,6 +57,12 @@ def best_of(scores, gone, form, places=None):
     return min((Structure(frozenset({gone}), frozenset({Added(number, (k,))})) for k in every), key=scores.score)
 
 
+def _dependent(scores, structure):
+    """The numbers that follow something by what joins."""
+    each = ((scores.look.candidates[k].suspect.each_dependent, places) for k, places in structure.added)
+    return {numbers[place] for numbers, places in each for place in places}
+
+
 def test_the_dependence_of_a_law_is_found_again_in_the_law_that_takes_its_place(found):
     trials, scores = found
     former = scores.look.model
@@ -95,6 +103,57 @@ def test_what_lacks_a_law_that_goes_is_not_tried(found):
     structure = best_of(scores, 1, "a number over warmth", [numbers.index("limit")])
     assert trials.can_be_tried(scores, structure)
     assert not trials.can_be_tried(scores, Structure(frozenset({0, 1}), structure.added))
+
+
+def test_a_number_that_follows_the_current_follows_no_warmth_beside_it(found):
+    """That cannot be written: it is neither proposed nor tried, and nobody hears of it."""
+    trials, scores = found
+    beside = [one for one in search(scores) if 1 not in one.dropped]
+    assert beside and not any("friction.limit" in _dependent(scores, one) for one in beside)
+    numbers = next(k for k, one in enumerate(scores.look.candidates) if one.suspect.form == "a number over warmth")
+    limit = scores.look.candidates[numbers].suspect.dependent.index("friction.limit")
+    assert trials.refitted(scores, [Structure(added=frozenset({Added(numbers, (limit,))}))]) == [None]
+    assert not trials.can_be_tried(scores, Structure(added=frozenset({Added(numbers, (limit,))})))
+    assert not trials.refused
+
+
+def test_what_follows_something_in_the_diagnosed_network_stays_so():
+    text = NETWORK.replace(
+        "{start: 200 N*s/m}", "{start: 200 N*s/m, over: {setting: warmth, at: 0, slope: {start: 0}}}"
+    )
+    made = bench(measured(), text)
+    look = look_at(made.refitter, made.model, causes("setting_dependence"), folds_of(made.refitter.runs, made.groups))
+    scores = Scores(look)
+    every = set().union(*(_dependent(scores, one) for one in search(scores)))
+    assert "damping.damping" not in every and "stiffness.stiffness" in every
+
+
+class Unwritable(Made):
+    """A cause whose text no network can have."""
+
+    word = "unwritable"
+
+    def suspects(self, view, network):
+        """A force in phase with the deflection, of an element that there is not."""
+        yield Suspect(
+            "form",
+            (1.0,),
+            lambda view, run: view.displacement(run)[None],
+            lambda text, atoms: add_branch(text, "more: {element: nothing}"),
+            sign=0,
+        )
+
+
+def test_what_a_cause_itself_cannot_write_is_told_with_the_reason():
+    made = bench(measured())
+    folds = folds_of(made.refitter.runs, made.groups)
+    trials = Trials(made.refitter, folds)
+    scores = Scores(look_at(made.refitter, made.model, [Unwritable], folds))
+    structure = Structure(added=frozenset({Added(0, (0,))}))
+    assert trials.can_be_tried(scores, structure)
+    assert trials.refitted(scores, [structure]) == [None]
+    (said,) = trials.refused
+    assert said.startswith("'unwritable' could not be written into the network: ") and "'nothing'" in said
 
 
 def test_what_is_gone_from_the_start_of_a_search_does_not_come_back(found):
