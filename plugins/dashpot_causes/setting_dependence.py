@@ -43,8 +43,8 @@ class SettingDependence(Cause):
     }
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
-        """Each parameter of each branch along a straight line over each setting, or with a factor at each of its
-        values; a stiffness over it, where the spring has a curve; and a force.
+        """Each parameter of each branch along a straight line or an exponential over each setting, or with a factor at
+        each of its values; a stiffness over it, where the spring has a curve; and a force.
         """
         settings = list(settings_of(view))
         numbers = list(numbers_of(network)) if settings else []
@@ -52,6 +52,8 @@ class SettingDependence(Cause):
             if numbers:
                 yield changed(setting, numbers)
             if len(setting.places) > 2:
+                if numbers:
+                    yield _exponential(setting, numbers)
                 yield from (tabulated(setting, number) for number in numbers)
             if has_curved_spring(network):
                 yield stiffness_over(setting)
@@ -184,19 +186,33 @@ def _stands(network: NetworkSpec, branch: Branch, key: str) -> bool:
 def changed(setting: Setting, numbers: Sequence[Number]) -> Suspect:
     """One or two of the parameters along a straight line over the setting."""
 
+    def over(change: float, number: Number) -> str:
+        return setting.over(change * number.value.number / setting.spread)
+
+    return _followed(f"a number over {setting.title}", setting, numbers, over)
+
+
+def _exponential(setting: Setting, numbers: Sequence[Number]) -> Suspect:
+    """The same along an exponential, which is the line to first order: what predicts better is known after a refit."""
+    form = f"a number over {setting.title}, exponentially"
+    return _followed(form, setting, numbers, lambda change, _: setting.rate(change))
+
+
+def _followed(form: str, setting: Setting, numbers: Sequence[Number], over: Callable[[float, Number], str]) -> Suspect:
+    """One or two of the parameters ``over`` a setting, by their change from its least to its largest value."""
+
     def columns(view: View, run: str) -> Array:
         return np.array([number.column(view, run, setting.share(run)) for number in numbers])
 
     def extend(text: str, atoms: Sequence[Atom]) -> str:
-        for strength, place in atoms:
+        for change, place in atoms:
             number = numbers[int(place)]
-            slope = strength * number.value.number / setting.spread
-            text = make_dependent(text, number.branch.name, number.key, setting.over(slope))
+            text = make_dependent(text, number.branch.name, number.key, over(change, number))
         return text
 
     grid = tuple(map(float, range(len(numbers))))
     return Suspect(
-        f"a number over {setting.title}",
+        form,
         grid,
         columns,
         extend,

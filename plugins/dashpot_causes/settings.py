@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -78,6 +79,14 @@ class Setting:
     def over(self, slope: float) -> str:
         """The dependence as it stands in a file, with a slope to be found."""
         return f"{self._word}, at: {self._told(self.middle)}, slope: {{start: {slope:.{DIGITS}g}}}"
+
+    def rate(self, change: float) -> str:
+        """The dependence as an exponential, with a rate to be found: that whose ends differ by a ``change``.
+
+        That is the change from the least to the largest setting, over the number in the middle of them.
+        """
+        rate = 2.0 * math.asinh(0.5 * change) / self.spread
+        return f"{self._word}, at: {self._told(self.middle)}, rate: {{start: {rate:.{DIGITS}g}}}"
 
     def table(self, factors: Sequence[float], reference: int) -> str:
         """The dependence as a table, with factors to be found at all places but one."""

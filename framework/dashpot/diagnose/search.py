@@ -21,6 +21,7 @@ BEAM = 3
 MOST_ADDED = 2  # at one look; a refit and another look follow
 PROPOSED = 8
 LEFT = 1e-5  # of the square of a column must be left beside the others
+SAME = 1e-6  # nats: forms of a cause that are told apart by a refit only, as a line and an exponential
 STALE = 2  # steps of the beam without a better structure
 
 
@@ -83,8 +84,8 @@ def additions(scores: Scores, structure: Structure) -> list[Added]:
         if k not in used and (best := _places(candidate, left, open_to)):
             added = Added(k, best[1])
             found.append((best[0] - scores.joining(added), added))
-    found.sort(key=lambda pair: -pair[0])
-    return _varied(scores, [added for _, added in found])
+    found.sort(key=lambda pair: -round(pair[0] / SAME))
+    return _varied(scores, found)
 
 
 def other_forms(scores: Scores, number: int) -> list[Structure]:
@@ -116,14 +117,17 @@ def _gone(scores: Scores, structure: Structure) -> set[int]:
     return {k for k, one in enumerate(scores.look.candidates) if (one.name, one.suspect.form) in gone}
 
 
-def _varied(scores: Scores, ordered: list[Added]) -> list[Added]:
-    """The first few, at most two forms of a cause."""
-    kept: list[Added] = []
-    for added in ordered:
+def _varied(scores: Scores, ordered: Sequence[tuple[float, Added]]) -> list[Added]:
+    """The first few, each behind its nats: at most two forms of a cause, of those that are the same to first order the
+    first.
+    """
+    kept: dict[Added, float] = {}
+    for gain, added in ordered:
         name = scores.look.candidates[added.candidate].name
-        if sum(scores.look.candidates[other.candidate].name == name for other in kept) < 2:
-            kept.append(added)
-    return kept[:PROPOSED]
+        known = [nats for other, nats in kept.items() if scores.look.candidates[other.candidate].name == name]
+        if len(known) < 2 and not any(abs(gain - nats) < SAME for nats in known):
+            kept[added] = gain
+    return list(kept)[:PROPOSED]
 
 
 def _project(scores: Scores, structure: Structure) -> _Projected:

@@ -179,7 +179,7 @@ def test_a_dependence_is_written_in_the_unit_in_which_the_runs_tell_the_setting(
         def unit_of(self, setting):
             return {"pressure": "bar"}[setting]
 
-    numbers, stiffness, _, force = dependence(view=InBar())
+    numbers, _, stiffness, _, force = dependence(view=InBar())
     text = force.extend(numbers.extend(NETWORK, [(0.5, 0.0)]), [(40.0, 0.0)])
     assert text.count("at: 2.333333333 bar") == 2
     slopes = {slot.path: slot.value for slot in parse_network(text, REGISTRY.elements).slots()}
@@ -216,7 +216,7 @@ class Pumped(SmallView):
 
 def test_three_values_of_a_setting_make_a_table():
     """At each of its values the column is that of the number alone; the file has a factor there."""
-    numbers, stiffness, damping, force = dependence(view=Pumped())
+    _, _, stiffness, damping, _ = dependence(view=Pumped())
     assert (damping.form, damping.grid) == ("damping.damping in a table over pressure", (1e5, 2e5, 4e5))
     for place, run in enumerate(Pumped.pressures):
         shown = damping.columns(Pumped(), run)
@@ -228,6 +228,21 @@ def test_three_values_of_a_setting_make_a_table():
     assert [value.searched for value in over.numbers] == [True, False, True]
 
 
+@pytest.mark.parametrize("change", [0.5, -0.8, -3.0])
+def test_an_exponential_begins_as_the_line_and_ends_as_far_apart(change):
+    """Its columns are those of the line. Two values of a setting tell one from the other by nothing."""
+    straight, exponential, *_ = dependence(view=Pumped())
+    assert (exponential.form, exponential.of) == ("a number over pressure, exponentially", straight.of)
+    for run in Pumped.pressures:
+        assert exponential.columns(Pumped(), run) == pytest.approx(straight.columns(Pumped(), run))
+    spec = parse_network(exponential.extend(NETWORK, [(change, 1.0)]), REGISTRY.elements)
+    found = {slot.path: slot.value for slot in spec.slots()}
+    rate, span = found["damping.damping.rate"], 4e5 - 1e5
+    assert 2.0 * np.sinh(0.5 * rate.number * span) == pytest.approx(change)
+    assert rate.searched and found["damping.damping"].over.at == pytest.approx((7e5 / 3.0,))
+    assert not [form for form in dependence() if "exponentially" in form.form]
+
+
 def test_many_values_of_a_setting_share_a_few_places():
     class Drifting(Pumped):
         pressures: ClassVar = {f"{k}": 1e5 + 1e4 * k for k in range(11)}
@@ -235,7 +250,7 @@ def test_many_values_of_a_setting_share_a_few_places():
         def _motion(self, run):
             return "small"
 
-    _, stiffness, *_ = dependence(view=Drifting())
+    _, _, stiffness, *_ = dependence(view=Drifting())
     assert stiffness.grid == pytest.approx([1.0e5, 1.2e5, 1.5e5, 1.8e5, 2.0e5])  # at each of them there is a run
     assert sum(stiffness.columns(Drifting(), "3")) == pytest.approx(200e3 * VIEW.displacement("small"), rel=1e-6)
 
@@ -312,7 +327,7 @@ FOLLOWING = NETWORK + (
 def test_over_a_channel_the_cure_adds_what_the_columns_show_with_all_memory(text):
     """Central differences of the written networks, each simulated along the channel."""
     view = Warming(text)
-    straight, *_ = forms = dependence(text, view)
+    straight, exponential, *_ = forms = dependence(text, view)
     tables = [form for form in forms if "in a table" in form.form]
     assert straight.form == "a number over the channel temperature"
     assert len(straight.grid) == len(tables) == 4
@@ -327,9 +342,10 @@ def test_over_a_channel_the_cure_adds_what_the_columns_show_with_all_memory(text
         for number, place in enumerate(straight.grid):
             if "over" in text and straight.of[number].startswith("slow.stiffness"):
                 continue  # it depends already: nothing is written beside that
-            more, less = (along(straight.extend, [(side * small, place)], run) for side in (1.0, -1.0))
-            shown = straight.columns(view, run)[number]
-            assert (more - less) / (2.0 * small) == pytest.approx(shown, abs=2e-3 * np.max(np.abs(shown)))
+            for form in (straight, exponential):
+                more, less = (along(form.extend, [(side * small, place)], run) for side in (1.0, -1.0))
+                shown = form.columns(view, run)[number]
+                assert (more - less) / (2.0 * small) == pytest.approx(shown, abs=2e-3 * np.max(np.abs(shown)))
         time = next(form for form in tables if form.form.startswith("slow.relaxation_time"))
         columns = time.columns(view, run)
         for number in range(len(time.grid)):

@@ -7,7 +7,7 @@ import pytest
 from unit.diagnose.synthetic import candidates_of, look_of, random_rows
 
 from dashpot.diagnose.score import Scores, Structure
-from dashpot.diagnose.search import search
+from dashpot.diagnose.search import additions, search
 
 WORDS = tuple("abcdefghij")
 PLACES = 5
@@ -90,3 +90,18 @@ def test_a_number_follows_one_thing_only(dependent, together):
     ranked = search(Scores(look))
     assert any(len(one.added) == 2 for one in ranked) == together
     assert len(ranked[0].added) == 1 + together
+
+
+def test_forms_that_are_the_same_to_first_order_are_proposed_once():
+    """A line and an exponential: the first one, so that there is room for what is another law."""
+    rows = random_rows(3 * PLACES, {2: 0.6, 12: 0.3})
+    for each in rows.values():
+        each[1 + PLACES : 1 + 2 * PLACES] = each[1 : 1 + PLACES]
+    line, exponential, other = candidates_of(WORDS[:3], PLACES)
+    same = (line, replace(exponential, cause=line.cause), other)
+    proposed = additions(Scores(look_of(rows, same)), Structure())
+    assert [one.candidate for one in proposed] == [0, 2]
+    assert [one.candidate for one in additions(Scores(look_of(rows, (line, exponential, other))), Structure())][:2] == [
+        0,
+        1,
+    ]
