@@ -10,6 +10,8 @@ from unit.data.tables import Tables
 
 from dashpot.data.importing.finding import find_all
 from dashpot.data.importing.imported import import_files
+from dashpot.data.importing.letters import beside
+from dashpot.data.importing.roles import named_roles
 from dashpot.data.importing.text import dataset_text
 from dashpot.data.table import Table
 
@@ -150,6 +152,18 @@ def test_letters_that_are_symbols_name_their_channels(law, names, share):
     displacement, force, confirm = found_in({**columns, "T": RAMP})
     assert (displacement[0], force[0]) == names
     assert not any(f"'{names[0]}' is taken for" in remark for remark in confirm)
+
+
+def test_channels_keep_their_order_and_their_columns_beside_known_ones():
+    """So that what all files have stands once; a column is one channel."""
+    roles = named_roles(["a", "v", "f", "d"], {})
+    assert list(beside(roles, {name: roles[name] for name in ("displacement", "force")})) == list(roles)
+    swapped = {"displacement": roles["acceleration"], "force": roles["force"]}
+    assert {name: role.column for name, role in beside(roles, swapped).items()} == {
+        "velocity": "v",
+        "force": "f",
+        "displacement": "a",
+    }
 
 
 def imported(folder, tables):

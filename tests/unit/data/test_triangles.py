@@ -12,6 +12,15 @@ TIME = np.arange(4000) * 1e-3
 SINE = np.sin(2.0 * np.pi * 2.0 * TIME)
 
 
+def limited(motion, step):
+    """What an actuator follows that goes no farther than ``step`` from sample to sample."""
+    place, path = 0.0, np.zeros(motion.size)
+    for number, wanted in enumerate(motion):
+        place += float(np.clip(wanted - place, -step, step))
+        path[number] = place
+    return path
+
+
 @pytest.mark.parametrize("corner", [0.0, 0.1, 0.2])
 def test_triangles_of_a_rig(corner):
     """The speed fades within a share of a stroke before and after each turn."""
@@ -27,10 +36,11 @@ def test_triangles_of_a_rig(corner):
         np.clip(2.0 * SINE, -1.0, 1.0),
         np.sin(2.0 * np.pi * (TIME + 2.0 * TIME**2)),
         np.sin(2.0 * np.pi * 0.2 * np.arange(400)),  # five samples a cycle
+        limited(np.minimum(1.0, TIME) * SINE, 9e-3),
         TIME,
         0.0 * TIME,
     ],
-    ids=["sine", "third harmonic", "trapezium", "sweep", "coarse", "ramp", "rest"],
+    ids=["sine", "third harmonic", "trapezium", "sweep", "coarse", "limited", "ramp", "rest"],
 )
 def test_other_motions(motion):
     assert not is_triangle(motion)

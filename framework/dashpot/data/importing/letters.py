@@ -47,7 +47,8 @@ def weighed_roles(columns: Mapping[str, np.ndarray], taken: Roles, step: float |
 def beside(roles: Roles, known: Roles) -> dict[str, Role]:
     """Known displacement and force, and the other channels that names tell of other columns."""
     used = {role.column for role in known.values()}
-    return {channel: role for channel, role in roles.items() if role.column not in used} | dict(known)
+    free = {channel: role for channel, role in roles.items() if channel in known or role.column not in used}
+    return {**free, **known}
 
 
 def is_letter(role: Role) -> bool:

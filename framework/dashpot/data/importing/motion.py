@@ -115,7 +115,8 @@ def _settings(kind: str, displacement: np.ndarray, turns: np.ndarray, step: floa
 def _of_triangle(turns: np.ndarray) -> dict[str, float]:
     """Amplitude and preload of a triangle that turns at these places (n,) m; none where its strokes differ."""
     strokes, middles = np.abs(np.diff(turns)), 0.5 * (turns[1:] + turns[:-1])
-    if np.ptp(strokes) > _EVEN * np.median(strokes):
+    low, high = np.quantile(strokes, (0.1, 0.9))
+    if high - low > _EVEN * np.median(strokes):
         return {}
     return {"amplitude": 0.5 * float(np.median(strokes)), "preload": float(np.median(middles))}
 
