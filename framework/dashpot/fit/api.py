@@ -29,6 +29,7 @@ from dashpot.fit.algebra import single_threaded_algebra
 from dashpot.fit.coordinates import search_coordinates, with_point
 from dashpot.fit.derived_intervals import derived_intervals
 from dashpot.fit.floor import noise_floor
+from dashpot.fit.force_ends import ends_from_records
 from dashpot.fit.grounding import correct_ends, ground_curves
 from dashpot.fit.holdout import Split, split_runs
 from dashpot.fit.identifiability import identifiability
@@ -216,7 +217,8 @@ def fit_prepared(
     """Identify a network on a dataset made ready."""
     watch = _Watch(progress, spec.name, setting.floor.value)
     require_settings(spec, {name: run.excitation.settings for name, run in setting.scored.items()})
-    grounded = with_ranges(ground_curves(spec, setting.train), natural_sizes(setting.train))
+    started = ends_from_records(ground_curves(spec, setting.train), setting.train)
+    grounded = with_ranges(started, natural_sizes(setting.train))
     curves = set(grounded.data_curves())
     fast = [run for run in setting.train if run.kind not in ("quasi_static", "hold")] or setting.train
     staged, best = _search(

@@ -22,6 +22,7 @@ from dashpot.fit.api import Progress, Setting, measure_errors, silent
 from dashpot.fit.bootstrap import bootstrap_intervals
 from dashpot.fit.coordinates import Coordinates, search_coordinates
 from dashpot.fit.derived_intervals import derived_intervals
+from dashpot.fit.force_ends import ends_from_records
 from dashpot.fit.grounding import correct_ends, ground_curves
 from dashpot.fit.identifiability import Identifiability, identifiability
 from dashpot.fit.known import KnownNumber, known_numbers
@@ -193,7 +194,7 @@ class _Conduct:
         results = []
         for number, stage in enumerate(plan.stages):
             if isinstance(stage, SearchStage):
-                spec = with_ranges(spec, natural_sizes(train))
+                spec = with_ranges(ends_from_records(spec, train), natural_sizes(train))
                 spec, result = self._search(plan, number, stage, spec)
                 results.append(result)
             else:
