@@ -17,6 +17,7 @@ from dashpot.diagnose.table_rows import is_row
 from dashpot.diagnose.term import Given, Model, Term
 from dashpot.diagnose.view import ModelView
 from dashpot.fit.alike import repeated
+from dashpot.fit.scored import ScoredRun
 
 Array = NDArray[np.float64]
 
@@ -84,19 +85,9 @@ def follows_the_order(refitter: Refitter, scores: Scores, number: int) -> bool:
     look = scores.look
     again = _missed_by_repeats(refitter, look.model, look.view)
     [moved] = [_numbers(look.model)[path] for path in look.model.owned[number] if path in look.model.coordinates.paths]
-    loads = _loads(refitter, look)
+    loads = _by_fold(refitter, look, lambda run: float(np.mean(run.force[run.first :])))
     each = _by_group(look, number)
     return abs(again) <= AGREE * abs(moved) and all(one.scatter <= AGREE and not one.may_go_with(loads) for one in each)
-
-
-def _loads(refitter: Refitter, look: Look) -> Array:
-    """The mean force of each fold (folds,) in N."""
-    found = np.zeros((2, len(look.folds.names)))
-    for run in refitter.runs:
-        at = list(look.folds.parts[run.name][1])
-        found[:, at] += np.array([[np.mean(run.force[run.first :])], [1.0]])
-    loads: Array = found[0] / np.maximum(found[1], 1.0)
-    return loads
 
 
 def _missed_by_repeats(refitter: Refitter, model: Model, view: ModelView) -> float:
@@ -184,21 +175,31 @@ def _shows_frequency(refitter: Refitter, look: Look, weights: Array) -> bool:
 
 
 def _in_phase(refitter: Refitter, look: Look) -> Array:
-    """For each fold (folds,) the share of its runs whose loss angle is below 45 degrees.
+    """For each fold (folds,) the share of its runs whose loss angle is below 45 degrees."""
+    return _by_fold(refitter, look, lambda run: float(_is_in_phase(run)))
+
+
+def _is_in_phase(run: ScoredRun) -> bool:
+    """Whether the loss angle of a run is below 45 degrees.
 
     Of a sweep or a random motion it is that of the least squares of the force over deflection, velocity and
     acceleration: what follows the velocity is lost, what follows the other two is stored.
     """
+    drive = run.drive
+    motion = np.array([drive.velocity, drive.displacement, drive.acceleration])[:, run.first :]
+    motion = motion - motion.mean(axis=1, keepdims=True)
+    motion /= np.maximum(motion.std(axis=1, keepdims=True), 1e-300)
+    parts = motion * np.linalg.lstsq(motion.T, run.force[run.first :], rcond=None)[0][:, None]
+    return bool(np.std(parts[0]) < np.std(parts[1] + parts[2]))
+
+
+def _by_fold(refitter: Refitter, look: Look, of: Callable[[ScoredRun], float]) -> Array:
+    """The mean of something of runs over those of each fold (folds,)."""
     found = np.zeros((2, len(look.folds.names)))
     for run in refitter.runs:
-        drive = run.drive
-        motion = np.array([drive.velocity, drive.displacement, drive.acceleration])[:, run.first :]
-        motion = motion - motion.mean(axis=1, keepdims=True)
-        motion /= np.maximum(motion.std(axis=1, keepdims=True), 1e-300)
-        parts = motion * np.linalg.lstsq(motion.T, run.force[run.first :], rcond=None)[0][:, None]
-        at = list(look.folds.parts[run.name][1])
-        found[:, at] += np.array([[1.0], [float(np.std(parts[0]) < np.std(parts[1] + parts[2]))]])
-    return found[1] / np.maximum(found[0], 1.0)
+        found[:, list(look.folds.parts[run.name][1])] += np.array([[of(run)], [1.0]])
+    means: Array = found[0] / np.maximum(found[1], 1.0)
+    return means
 
 
 def _beside(gram: Array, column: int, others: NDArray[np.intp]) -> Array:

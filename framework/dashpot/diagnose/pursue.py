@@ -23,7 +23,7 @@ from dashpot.diagnose.odds import NUMBER_ODDS, Odds
 from dashpot.diagnose.pursuit import NAMED, Form, Pursuit, Scored, Without
 from dashpot.diagnose.score import Scores, Structure
 from dashpot.diagnose.search import other_forms, search
-from dashpot.diagnose.term import Model, Part, Term
+from dashpot.diagnose.term import Model, Term, renamed
 from dashpot.diagnose.trials import Trials, scored_by
 from dashpot.kernel.workers import forked
 
@@ -214,7 +214,7 @@ class Pursuer:
     def _of_its_name(self, look: Look, without: Scored, odds: Odds) -> Scored:
         """A structure from which a term has gone, without those that are not what they are called without it."""
         refitter, model = self.trials.refitter, without.model
-        while gone := _renamed(model):
+        while gone := renamed(model):
             kept = refitter.writable(model, [term for term in model.terms if term not in gone])
             model = refitter.refit(model, kept, look.noise)
         return without if model is without.model else self.trials.scored(look, model, odds)
@@ -310,12 +310,6 @@ class Pursuer:
             trials = self.trials.refitted(scores, [one for _, one in few])
             found.update({key: trial for (key, _), trial in zip(few, trials, strict=True) if trial})
         return [(term, trial) for (term, _), trial in found.items()]
-
-
-def _renamed(model: Model) -> list[Part]:
-    """The terms that are not what they are called any more."""
-    known = enumerate(model.terms) if model.keeps_all else ()
-    return [term for k, term in known if not term.admits(model.numbers_of(k))]
 
 
 def _ahead(trial: Scored, present: Scored) -> float:

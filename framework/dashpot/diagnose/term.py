@@ -200,6 +200,12 @@ class Model:
         return with_point(self.fitted, self.coordinates, point)
 
 
+def renamed(model: Model) -> list[Part]:
+    """The terms whose numbers are beyond the borders of what they are called; none where some are replaced."""
+    known = enumerate(model.terms) if model.keeps_all else ()
+    return [term for number, term in known if not term.admits(model.numbers_of(number))]
+
+
 def first_model(declared: NetworkSpec, fitted: NetworkSpec) -> Model:
     """A fitted network as the start of a search."""
     coordinates, terms = search_coordinates(fitted), given_branches(declared)

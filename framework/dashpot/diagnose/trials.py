@@ -20,7 +20,7 @@ from dashpot.diagnose.pursuit import Scored
 from dashpot.diagnose.refit import Refitter
 from dashpot.diagnose.score import Scores, Structure
 from dashpot.diagnose.search import additions
-from dashpot.diagnose.term import Given, Model, Part, Term
+from dashpot.diagnose.term import Given, Model, Part, Term, renamed
 from dashpot.fit.refine import Outcome
 from dashpot.kernel.workers import forked
 from dashpot.text.problem import InputError
@@ -150,7 +150,7 @@ class Trials:
         where a delay has come in. A new term that is not what it is called or is not told refuses the structure.
         """
         while model.outcome is not Outcome.FAILED and model.keeps_all and new <= set(model.terms):
-            gone = {term for k, term in enumerate(model.terms) if not term.admits(model.numbers_of(k))}
+            gone = set(renamed(model))
             if not gone:
                 seen = self.scores_of(look, model)
                 untold, unproven = self.lacking(seen)
