@@ -150,8 +150,9 @@ def _uneven(refitter: Refitter, look: Look, residual: Mapping[str, Array]) -> Le
     for run in records(refitter.runs):
         functions = _sizes(look.view, run.name)
         names = list(functions)
-        rows = look.measured_noise.reduce(run.name, np.array([*functions.values()])[:, run.first :])
-        found.append(np.concatenate([rows, np.ones_like(rows[:1]), residual[run.name][None] ** 2]))
+        rows = np.array([*functions.values(), np.ones(run.force.size)])[:, run.first :]
+        sums = look.measured_noise.reduce(run.name, rows)
+        found.append(np.concatenate([sums / sums[-1], residual[run.name][None] ** 2]))
     if not found:
         return Leftover(0.0, 0.0, "has no size that could follow the motion")
     whole = np.concatenate(found, axis=1)
