@@ -119,8 +119,9 @@ class Trials:
         """All terms, without those of the model that cannot be written any more beside new ones."""
         new = [term for term in asked.terms if term not in asked.model.terms]
         former = [term for term in asked.terms if term in asked.model.terms]
-        orders = [self.refitter.writable(asked.model, order) for order in (asked.terms, [*new, *former])]
-        written = max(orders, key=len)
+        written = self.refitter.writable(asked.model, asked.terms)
+        if len(written) < len(asked.terms):
+            written = max(written, self.refitter.writable(asked.model, [*new, *former]), key=len)
         return written if set(new) <= set(written) else asked.terms
 
     def _with_dependence(self, scores: Scores, asked: _Asked, trial: Scored) -> _Asked | None:
