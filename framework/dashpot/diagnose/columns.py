@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -19,11 +19,8 @@ from dashpot.diagnose.term import Model
 from dashpot.diagnose.view import ModelView
 from dashpot.diagnose.whitening import Noise
 from dashpot.fit.scored import ScoredRun
-from dashpot.kernel.workers import spread
 
 Array = NDArray[np.float64]
-
-HELD_BYTES = 125e6  # of rows of a look
 
 
 @dataclass(frozen=True)
@@ -92,12 +89,12 @@ class Columns:
         """How many columns there are in front, which are projected out."""
         return self.free + self.doubted * len(self.refitter.runs)
 
-    def of(self, run: ScoredRun) -> Array:
-        """All columns of a run, as rows (c, kept)."""
+    def of(self, run: ScoredRun) -> NDArray[np.float32]:
+        """All columns of a run, as rows (c, kept); in single precision, to save memory: sums are to be double."""
         name, layout = run.name, self.layout
         faults = shapes_of(self.faults, self.view, run, self.plain)
         runs, first = [one.name for one in self.refitter.runs], self.first
-        rows = np.zeros((first + layout.size, self.plain.kept(name, run.samples)))
+        rows = np.zeros((first + layout.size, self.plain.kept(name, run.samples)), np.float32)
         rows[: self.base.size] = self.tangents[name][self.base]
         rows[self.base.size : self.free] = self.plain.reduce(name, self.bends[name])
         at = self.free + self.doubted * runs.index(name)
@@ -109,18 +106,7 @@ class Columns:
         self._fill(rows[first + layout.first_candidate :], run)
         return rows
 
-    def kept(self, run: ScoredRun) -> tuple[NDArray[np.intp], list[NDArray[np.float32]]]:
-        """The rows of a run that its refitter keeps in memory anyway: their places (k,), and they themselves."""
-        places, found = [np.arange(0)], []
-        for candidate in (candidate for candidate in self.candidates if candidate.site is None):
-            at = np.arange(candidate.columns.start, candidate.columns.stop)
-            rows = self.refitter.kept_columns(candidate, run)
-            if rows is not None and not np.isin(at, self.unseen).any():
-                places.append(self.first + self.layout.first_candidate + at)
-                found.append(rows)
-        return np.concatenate(places), found
-
-    def _fill(self, bank: Array, run: ScoredRun) -> None:
+    def _fill(self, bank: NDArray[np.float32], run: ScoredRun) -> None:
         """Write the columns of the candidates."""
         for candidate in (candidate for candidate in self.candidates if candidate.site is None):
             bank[candidate.columns] = self.refitter.columns(candidate, self.view, run, self.plain)
@@ -160,55 +146,6 @@ def linearised(
         inner=inside.bank(candidates, refitter.jobs, refitter.watch) if inside else None,
         unseen=not_shown(candidates, view, runs),
     )
-
-
-@dataclass(frozen=True, eq=False)
-class _Parted:
-    """Rows in two parts: ``rows`` (c - k, kept) of their own, and at ``places`` (k,) others that are ``kept``."""
-
-    rows: NDArray[np.float32]
-    places: NDArray[np.intp]
-    kept: Sequence[NDArray[np.float32]]
-
-    def whole(self) -> Array:
-        """All of them (c, kept)."""
-        found = np.empty((len(self.rows) + self.places.size, self.rows.shape[1]))
-        found[np.delete(np.arange(len(found)), self.places)] = self.rows
-        if self.kept:
-            found[self.places] = np.concatenate(self.kept)
-        return found
-
-
-class Rows(Mapping[str, Array]):
-    """The rows (c, kept) of each run by its name: held in memory as far as ``HELD_BYTES`` go, else made each time.
-
-    Their values have single precision, to save memory; sums over them are to be double. What the refitter keeps is not
-    held twice.
-    """
-
-    def __init__(self, columns: Columns, jobs: int) -> None:
-        runs = columns.refitter.runs
-        self._runs, self._columns = {run.name: run for run in runs}, columns
-        width = columns.free + columns.doubted * len(runs) + columns.layout.size
-        ends = np.cumsum([4 * width * columns.plain.kept(run.name, run.samples) for run in runs])
-        held = [run for run, end in zip(runs, ends, strict=True) if end < HELD_BYTES]
-        self._held = dict(zip((run.name for run in held), spread(self._parted, held, jobs=jobs), strict=True))
-
-    def _single(self, run: ScoredRun) -> NDArray[np.float32]:
-        return self._columns.of(run).astype(np.float32)
-
-    def _parted(self, run: ScoredRun) -> _Parted:
-        whole, (places, kept) = self._single(run), self._columns.kept(run)
-        return _Parted(np.delete(whole, places, axis=0), places, kept)
-
-    def __getitem__(self, name: str) -> Array:
-        return self._held[name].whole() if name in self._held else self._single(self._runs[name]).astype(float)
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._runs)
-
-    def __len__(self) -> int:
-        return len(self._runs)
 
 
 def _own_and_base(model: Model) -> tuple[NDArray[np.intp], NDArray[np.intp]]:

@@ -20,7 +20,7 @@ from dashpot.diagnose.term import Given, Model
 Array = NDArray[np.float64]
 
 RIDGE = 1e-9
-ROOM = 100e6  # bytes of what is known beside structures of which terms are gone
+ROOM = 30e6  # bytes of what is known beside structures of which terms are gone
 FORM_ERROR = 0.1  # of the force of a term: how far the law of an element may be from the one that acts
 
 NONE = frozenset[int]()

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from dashpot.contract.cause import Cause, ChannelFault
 from dashpot.diagnose.candidate import Candidate
-from dashpot.diagnose.columns import Columns, Layout, Rows, linearised, shapes_of
+from dashpot.diagnose.columns import Columns, Layout, linearised, shapes_of
 from dashpot.diagnose.folds import Folds
 from dashpot.diagnose.front import RIDGE, Front, beside, front_of, in_front
 from dashpot.diagnose.inside import Inside
@@ -25,13 +25,14 @@ from dashpot.diagnose.refit import Refitter
 from dashpot.diagnose.table_rows import moved, records, stated, weighed
 from dashpot.diagnose.term import Model
 from dashpot.diagnose.view import ModelView, view_of
-from dashpot.diagnose.whitening import Noise, covariance_of, filter_of, independent_share, lagged, orthonormal
+from dashpot.diagnose.whitening import ORDER, Noise, covariance_of, filter_of, independent_share, lagged, orthonormal
 from dashpot.fit.scored import ScoredRun
 from dashpot.kernel.workers import streamed
 
 Array = NDArray[np.float64]
 
 RESOLUTION = 1e-5  # of the deviation of the force: simulation and record are no finer
+BLOCK = 2048  # samples of a run at which all columns are made orthonormal at a time
 LEFT = 0.5  # of the degrees of freedom may be taken; beyond that the residual of the model stands for the noise
 
 
@@ -45,7 +46,10 @@ class Doubt:
 
 @dataclass(eq=False)
 class Recorded:
-    """The noise of the records beside all columns of a look, found when it is asked for."""
+    """The noise of the records beside all columns of a look, found when it is asked for.
+
+    ``gram`` (c, c) is that of all runs under ``white`` noise.
+    """
 
     refitter: Refitter
     model: Model
@@ -53,20 +57,18 @@ class Recorded:
     candidates: Sequence[Candidate]
     kinds: Sequence[ChannelFault]
     doubted: Sequence[Doubt]
-    folds: Folds
     white: Noise
+    gram: Array
 
     @cached_property
     def found(self) -> tuple[Noise, float]:
         """The noise, and the RMS in N of what all columns together leave."""
-        refitter, jobs = self.refitter, self.refitter.jobs
+        refitter = self.refitter
         faults = [doubt.fault for doubt in self.doubted]
         inside = _inside_of(refitter, self.model)
         columns = linearised(refitter, self.model, self.view, inside, self.candidates, faults)
-        rows = Rows(columns, jobs)
-        grams, _, _ = _grams(rows, self.white, self.folds, jobs)
         shapes = _shapes(self.kinds, self.view, refitter.runs, columns.plain)
-        noise, rich = recorded_noise(rows, grams, columns.first, self.white, refitter.runs, shapes)
+        noise, rich = recorded_noise(columns, self.gram, self.white, shapes)
         return stated(noise, refitter.sensors, refitter.runs), rich
 
 
@@ -130,15 +132,14 @@ def look_at(
     columns = linearised(refitter, model, view, inside, candidates, [doubt.fault for doubt in doubted])
     layout, free, first = columns.layout, columns.free, columns.first
     precision = _known_beforehand(free, doubted, len(runs))
-    recorded = None
-    if noise is None:
-        kinds = [fault for cause in causes for fault in cause().channel_faults(view)]
-        noise = _left_by(columns, [fault for fault in kinds if fault.evidence_of == "at_rest"])
-        recorded = Recorded(refitter, model, view, candidates, kinds, doubted, folds, noise)
-    grams, samples, squares = _grams(Rows(columns, refitter.jobs), noise, folds, refitter.jobs)
+    learnt = noise is None
+    kinds = [fault for cause in causes for fault in cause().channel_faults(view)] if learnt else []
+    noise = noise or _left_by(columns, [fault for fault in kinds if fault.evidence_of == "at_rest"])
+    grams, samples, squares = _grams(columns, noise, folds)
+    whole = grams.sum(axis=0)
     terms = 1 + layout.tangents
     plainly = grams[:, : first + terms, : first + terms]
-    moves = in_front(plainly.sum(axis=0), precision)
+    moves = in_front(whole[: first + terms, : first + terms], precision)
     moves[:, 0] *= bool(doubted)  # the residual is that of the parameters as they are
     exact = np.array([beside(gram, moves) for gram in plainly])
     front = front_of(grams, precision[free:], free, layout, model, candidates)
@@ -154,7 +155,7 @@ def look_at(
         folds=folds,
         sizes=np.sqrt(squares[first:]),
         unavailable=unavailable,
-        recorded=recorded,
+        recorded=Recorded(refitter, model, view, candidates, kinds, doubted, noise, whole) if learnt else None,
         own=columns.own,
         base=columns.base,
         odds=Odds(layout.bank, refitter.missing),
@@ -205,25 +206,26 @@ def _shapes(
     return {run.name: shapes_of(faults, view, run, noise) for run in runs}
 
 
-def _grams(rows: Mapping[str, Array], noise: Noise, folds: Folds, jobs: int) -> tuple[Array, Array, Array]:
-    """Gram matrices (folds, c, c) of rows under white ``noise``, the number (folds,) of their samples, and the mean
-    squares (c,) of the rows in N^2.
+def _grams(columns: Columns, noise: Noise, folds: Folds) -> tuple[Array, Array, Array]:
+    """Gram matrices (folds, c, c) of columns under white ``noise``, the number (folds,) of their samples, and the mean
+    squares (c,) of the columns in N^2.
 
-    Samples that are not independent weigh less in both.
+    Samples that are not independent weigh less in both. The rows of a run are made when its turn has come.
     """
+    runs, size = columns.refitter.runs, columns.first + columns.layout.size
 
-    def seen(run: str) -> list[tuple[int, Array, int]]:
-        found = rows[run]
-        parts = folds.of_run(run, found.shape[1])
-        return [(fold, found[:, part] @ found[:, part].T, part.stop - part.start) for fold, part in parts]
+    def seen(run: ScoredRun) -> list[tuple[int, Array, int]]:
+        found = columns.of(run)
+        parts = folds.of_run(run.name, found.shape[1])
+        doubles = ((fold, found[:, part].astype(float)) for fold, part in parts)
+        return [(fold, rows @ rows.T, rows.shape[1]) for fold, rows in doubles]
 
-    size = len(next(iter(rows.values())))
     grams, samples, squares = np.zeros((len(folds.names), size, size)), np.zeros(len(folds.names)), np.zeros(size)
-    for run, found in zip(rows, streamed(seen, rows, jobs), strict=True):
-        share, precision = noise.independent.get(run, 1.0), noise.filters[run][0] ** 2
+    for run, found in zip(runs, streamed(seen, runs, columns.refitter.jobs), strict=True):
+        share, precision = noise.independent.get(run.name, 1.0), noise.filters[run.name][0] ** 2
         count = sum(kept for _, _, kept in found)
         for fold, gram, kept in found:
-            squares += np.diag(gram) / (count * len(rows))
+            squares += np.diag(gram) / (count * len(runs))
             samples[fold] += share * kept
             gram *= share * precision
             grams[fold] += gram
@@ -255,37 +257,37 @@ def searched_noise(residual: Mapping[str, Array], plain: Noise, runs: Sequence[S
     return replace(plain.with_white(dict.fromkeys(shares, deviation)), independent=shares)
 
 
-def recorded_noise(
-    rows: Mapping[str, Array],
-    grams: Array,
-    first: int,
-    noise: Noise,
-    runs: Sequence[ScoredRun],
-    faults: Mapping[str, Array],
-) -> tuple[Noise, float]:
+def recorded_noise(columns: Columns, gram: Array, noise: Noise, faults: Mapping[str, Array]) -> tuple[Noise, float]:
     """The noise of the records alone, an autoregressive model of what all columns together leave, and its RMS in N.
 
-    The residual is row ``first``, ``grams`` (folds, c, c) are those of all rows under the white ``noise``; ``faults``
-    (k, kept) that a run may have by itself are no noise. What the columns and faults take up of the noise itself is
-    made up for, in its size and its spectrum, where at least half of the degrees of freedom of a run are left.
+    ``gram`` (c, c) is that of all runs under the white ``noise``; ``faults`` (k, kept) that a run may have by itself
+    are no noise. What the columns and faults take up of the noise itself is made up for, in its size and its spectrum,
+    where at least half of the degrees of freedom of a run are left.
     """
     from scipy.linalg import cholesky, solve_triangular
 
-    gram = grams.sum(axis=0)
+    first = columns.first
     scale = np.sqrt(np.maximum(np.diag(gram), 1e-300))
     others = np.flatnonzero(np.arange(len(scale)) != first)
-    root = cholesky((gram / np.outer(scale, scale))[np.ix_(others, others)] + RIDGE * np.eye(others.size), lower=True)
-    aim = solve_triangular(root, (gram / np.outer(scale, scale))[others, first], lower=True) * scale[first]
+    gram = gram / np.outer(scale, scale)
+    root = cholesky(gram[np.ix_(others, others)] + RIDGE * np.eye(others.size), lower=True)
+    aim = solve_triangular(root, gram[others, first], lower=True) * scale[first]
     filters, squares = {}, []
-    for run in runs:
-        found, shapes = rows[run.name], faults[run.name]
-        basis = solve_triangular(root, found[others] / scale[others, None], lower=True)
-        rest, taken = found[first] - aim @ basis, noise.weight(run.name) * lagged(basis)
+    for run in columns.refitter.runs:
+        found, shapes = columns.of(run), faults[run.name]
+        residual = found[first].astype(float)
+        rest, taken = residual.copy(), np.zeros(min(ORDER + 1, residual.size))
+        for start in range(0, residual.size, BLOCK):
+            known = min(start, ORDER)
+            block = slice(start - known, start + BLOCK)
+            basis = solve_triangular(root, found[others, block] / scale[others, None], lower=True)
+            rest[start : block.stop] -= aim @ basis[:, known:]
+            taken += noise.weight(run.name) * lagged(basis, known) / residual.size
         if taken[0] > LEFT:
-            rest, taken = found[first].copy(), np.zeros(taken.size)
+            rest, taken = residual, np.zeros(taken.size)
         own = orthonormal(shapes)
         if taken[0] + len(own) / rest.size < LEFT:
-            rest, taken = rest - own @ rest @ own, taken + lagged(own)
+            rest, taken = rest - own @ rest @ own, taken + lagged(own) / rest.size
         covariance = covariance_of(rest, taken)
         filters[run.name] = filter_of(covariance, rest.size, _smallest(run))
         squares.append(covariance[0])

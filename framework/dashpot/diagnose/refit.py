@@ -40,7 +40,8 @@ from dashpot.text.problem import InputError
 Array = NDArray[np.float64]
 
 STEPS, TOLERANCE = 60, 1e-5
-KEPT_BYTES = 100e6  # of columns
+KEPT_BYTES = 50e6  # of columns
+TEXTS = 64  # of structures that are known: those of a model and of what is tried beside it
 TRIAL_TOLERANCE = 1e-3  # a trial is only compared
 FIRST_STEPS = 4  # from each of two starts, before the one that misses less goes on alone
 SHARES = (1.0, 0.3)  # of what the linear step foresees: starts on the way to it
@@ -66,8 +67,8 @@ class Refitter:
     """What every refit needs: the training runs, the elements, and the data sheets of the force channel by run.
 
     ``noise`` is the noise floor of the records in N, infinite where nothing tells it.
-    ``written`` keeps the texts of structures, ``reduced`` columns that depend on the motion alone. ``missing`` says
-    whether it is certain that something is missing in the diagnosed network.
+    ``written`` keeps the last texts of structures, ``reduced`` columns that depend on the motion alone. ``missing``
+    says whether it is certain that something is missing in the diagnosed network.
     """
 
     runs: Sequence[ScoredRun]
@@ -152,16 +153,12 @@ class Refitter:
 
     def columns(self, candidate: Candidate, view: ModelView, run: ScoredRun, noise: Noise) -> NDArray[np.floating]:
         """The columns (places, kept) of a candidate on a run, reduced; those of the motion alone are kept in memory."""
-        if (known := self.kept_columns(candidate, run)) is not None:
+        if (known := self.reduced.columns.get(_key(candidate, run))) is not None:
             return known
         found = noise.reduce(run.name, shown(run, np.atleast_2d(candidate.suspect.columns(view, run.name))))
         if candidate.suspect.of_motion:
             self.reduced.keep(_key(candidate, run), found)
         return found
-
-    def kept_columns(self, candidate: Candidate, run: ScoredRun) -> NDArray[np.float32] | None:
-        """The columns of a candidate on a run that are kept in memory; None for others."""
-        return self.reduced.columns.get(_key(candidate, run))
 
     def term_forces(self, model: Model) -> list[dict[str, Array]]:
         """For each term what it adds to the force (n,) by run, all other numbers as they are."""
@@ -220,9 +217,11 @@ class Refitter:
         given = tuple(term for term in terms if isinstance(term, Given))
         causes = tuple(term for term in terms if isinstance(term, Term))
         key = frozenset(one.branch for one in given), causes
-        if key not in self.written:
-            self.written[key] = self._extended(base, given, causes)
-        return self.written[key]
+        found = self.written.pop(key, None) or self._extended(base, given, causes)
+        self.written[key] = found
+        while len(self.written) > TEXTS:
+            del self.written[next(iter(self.written))]
+        return found
 
     def _extended(self, base: NetworkSpec, given: tuple[Given, ...], causes: tuple[Term, ...]) -> Written:
         if causes:

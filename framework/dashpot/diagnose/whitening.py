@@ -129,11 +129,15 @@ def covariance_of(rest: Array, taken: Array) -> Array:
     return np.asarray(found + found[0] / (1.0 - taken[0]) * taken[: found.size])
 
 
-def lagged(basis: Array) -> Array:
-    """The trace of the hat matrix of orthonormal rows (k, n) at each lag (order + 1,), over n."""
-    size = basis.shape[1]
-    lags = range(min(ORDER + 1, max(size, 1)))
-    return np.array([np.einsum("ij,ij->", basis[:, lag:], basis[:, : size - lag]) for lag in lags]) / max(size, 1)
+def lagged(basis: Array, known: int = 0) -> Array:
+    """The trace of the hat matrix of orthonormal rows (k, n) at each lag (order + 1,).
+
+    Of a block of samples that begins with some ``known`` ones, which belong to the block before it, only the others
+    count.
+    """
+    lags = range(min(ORDER + 1, max(basis.shape[1], 1)))
+    pairs = ((basis[:, max(lag, known) :], basis[:, max(known - lag, 0) : -lag or None]) for lag in lags)
+    return np.array([np.einsum("ij,ij->", late, early) for late, early in pairs])
 
 
 def orthonormal(shapes: Array) -> Array:

@@ -106,11 +106,18 @@ def test_what_a_fit_takes_of_the_noise_is_given_back_at_every_lag(columns):
     place = np.arange(500)
     basis = orthonormal(np.array([np.cos(np.pi * (place + 0.5) * k / 500) for k in range(columns)]))
     noise = 3.0 * np.random.default_rng(2).standard_normal((200, 500))
-    found = np.mean([covariance_of(rest, lagged(basis)) for rest in noise - noise @ basis.T @ basis], axis=0)
+    found = np.mean([covariance_of(rest, lagged(basis) / 500) for rest in noise - noise @ basis.T @ basis], axis=0)
     assert found == pytest.approx([9.0, *[0.0] * ORDER], abs=5.0 * 9.0 / np.sqrt(500 * 200))
     left = noise[0] - noise[0] @ basis.T @ basis
     assert learn_filter(left, 1e-9)[1:].any(), "as it is, what is left is not white"
-    assert not filter_of(covariance_of(left, lagged(basis)), 500, 1e-9)[1:].any()
+    assert not filter_of(covariance_of(left, lagged(basis) / 500), 500, 1e-9)[1:].any()
+
+
+def test_pairs_of_samples_add_up_over_blocks_that_begin_with_what_was_before_them():
+    basis = orthonormal(np.random.default_rng(3).standard_normal((5, 100)))
+    blocks = lagged(basis[:, :60]) + lagged(basis[:, 60 - ORDER :], ORDER)
+    assert blocks == pytest.approx(lagged(basis), abs=1e-12)
+    assert lagged(basis)[:2] == pytest.approx([5.0, np.sum(basis[:, 1:] * basis[:, :-1])])
 
 
 def test_an_autocovariance_that_no_noise_has_is_cut_off():
