@@ -51,6 +51,23 @@ def knowing_better(run: Run, wrong: Run, displacement: float) -> Run:
     return replace(run, history={**run.history, name: run.history[name] * displacement**2})
 
 
+def corrected_reach(runs: Iterable[Run], factors: Mapping[str, float]) -> dict[str, float]:
+    """The setting ``reached`` by run, where the displacements of some runs are put right by ``factors``.
+
+    What is in no run that is here, as one that was set aside, counts where it shows in what a run knew. Runs that are
+    one of several ends know nothing of how far the specimen was deflected.
+    """
+    found, said, reached = dict[str, float](), 0.0, 0.0
+    for run in (run for run in runs if REACHED in run.history and not run.end):
+        known = run.history[REACHED]
+        reached = max(reached, run.settings.get(REACHED, 0.0), known if known > said else 0.0)
+        found[run.name] = reached
+        far = float(np.max(np.abs(run.displacement)))
+        said = max(known, far)
+        reached = max(reached, far * abs(factors.get(run.name, 1.0)))
+    return found
+
+
 def name_of(word: str, earlier: int) -> str:
     """The setting that tells of the run before, or of one so many runs earlier."""
     return f"{word} {earlier + 1}" if earlier else word

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from dashpot.data.dataset import Dataset
 from dashpot.data.ends import one_force_each
 from dashpot.data.groups import group_repeats
-from dashpot.data.history import knowing_better
+from dashpot.data.history import REACHED, corrected_reach, knowing_better
 from dashpot.data.run import Run
 from dashpot.data.steady import STEADY
 from dashpot.text.problem import Place, Problem
@@ -96,10 +96,16 @@ def examine(dataset: Dataset) -> Triage:
 def _knowing_better(runs: Sequence[Run], measured: Sequence[Run], faults: Sequence[Fault]) -> list[Run]:
     """The runs with what they know of those before them put right where a channel of these was corrected."""
     left, by_name = list(runs), {run.name: run for run in measured}
-    for fault in faults:
-        if fault.factor is not None and fault.channel == "displacement":
-            left = [knowing_better(run, by_name[fault.run], fault.factor) for run in left]
-    return left
+    factors = {
+        fault.run: fault.factor for fault in faults if fault.factor is not None and fault.channel == "displacement"
+    }
+    for name, factor in factors.items():
+        left = [knowing_better(run, by_name[name], factor) for run in left]
+    reached = corrected_reach(measured, factors) if factors else {}
+    return [
+        replace(run, history={**run.history, REACHED: reached[run.name]}) if run.name in reached else run
+        for run in left
+    ]
 
 
 def _without(runs: Sequence[Run], faults: Sequence[Fault]) -> list[Run]:

@@ -140,10 +140,27 @@ def test_runs_know_the_motion_of_a_run_before_them_as_it_was_corrected(rng, chan
     found = examine(replace(wrong, runs=tuple(made)))
     assert [fault.factor for fault in found.faults] == [pytest.approx(1.0 / factor)]
     for run, other in zip(found.dataset.runs, expected, strict=True):
-        assert {key: value for key, value in run.history.items() if key != "reached"} == pytest.approx(
-            {key: value for key, value in other.history.items() if key != "reached"}, rel=1e-9
-        )
+        assert run.history == pytest.approx(other.history, rel=1e-9)
     assert len(found.dataset.runs[-1].history) == (len(expected) - 1) + 1
+
+
+@pytest.mark.parametrize("factor", [1e-3, 1e3])
+def test_how_far_the_specimen_was_deflected_is_put_right_beside_what_else_is_known_of_it(rng, factor):
+    """A run that was set aside went further than all others; the last one tells how far the specimen has been."""
+    sound = dataset(rng)
+    far = sweep("far", 2e-3, 40e-3, rng, lambda x, v: 0.0)
+    wrong = with_run(sound, 3, displacement=factor * sound.runs[3].displacement)
+    told = [
+        [*((run, True) for run in data.runs[:2]), (far, False), *((run, True) for run in data.runs[2:-1])]
+        + [(replace(data.runs[-1], settings={"reached": 50e-3}), True)]
+        for data in (sound, wrong)
+    ]
+    expected, made = (list(with_history(each)) for each in told)
+    found = examine(replace(wrong, runs=tuple(made)))
+    assert [fault.channel for fault in found.faults] == ["displacement"]
+    reached = [run.history["reached"] for run in found.dataset.runs]
+    assert reached == pytest.approx([run.history["reached"] for run in expected], rel=1e-9)
+    assert reached[0] == 0.0 and reached[-1] == 50e-3
 
 
 def test_harmonics_of_the_actuator_are_remarked():
