@@ -21,6 +21,7 @@ REGISTRY = load_registry()
 STEP, SAMPLES = 2e-3, 1000
 TIME = STEP * np.arange(SAMPLES)
 STIFFNESS, DAMPING, NOISE = 200e3, 400.0, 5.0
+UNITS = {"temperature": "K", "warm_up": "s"}  # of settings and channels, besides those of the motion
 NETWORK = """\
 format: dashpot-network/1
 name: plain
@@ -105,20 +106,27 @@ def dataset(
     held_out: tuple[str, ...] = (),
     fault: Mapping[str, Callable[[Array], Array]] | None = None,
     noise: float = NOISE,
+    settings: Mapping[str, Mapping[str, float]] | None = None,
+    channels: Mapping[str, Mapping[str, Array]] | None = None,
+    kind: str = "sweep",
 ) -> Dataset:
-    """Runs in memory; ``repeats`` names what a run repeats, ``fault`` changes what the channel of a run shows."""
+    """Runs in memory; ``repeats`` names what a run repeats, ``fault`` changes what the channel of a run shows.
+
+    Further ``settings`` and ``channels`` are those of runs by name.
+    """
     rng, runs, faults = np.random.default_rng(seed), [], fault or {}
     again = repeats or {}
     for number, (name, motion) in enumerate((motions | {new: motions[old] for new, old in again.items()}).items()):
         force = faults.get(name, lambda force: force)(law(motion)) + noise * rng.standard_normal(SAMPLES)
-        settings = {"amplitude": motion.amplitude, "preload": motion.preload}
+        shown = {"displacement": motion.x(), "force": force, **(channels or {}).get(name, {})}
+        conditions = {"amplitude": motion.amplitude, "preload": motion.preload, **(settings or {}).get(name, {})}
         runs.append(
             Run(
                 name,
-                "sweep",
+                kind,
                 TIME,
-                {"displacement": motion.x(), "force": force},
-                settings,
+                shown,
+                conditions,
                 again.get(name),
                 again.get(name, name),
                 held_out=name in held_out,
@@ -159,27 +167,39 @@ def causes(*words: str) -> list[type[Cause]]:
     return [REGISTRY.causes[word] for word in words]
 
 
-def write(data: Dataset, folder: Path) -> Path:
-    """The dataset as files: a table for each run, and ``dataset.yaml``."""
+def write(data: Dataset, folder: Path, sheet: str = "") -> Path:
+    """The dataset as files: a table for each run, and ``dataset.yaml``.
+
+    Channels beside motion and force are written as they are, ``sheet`` as the data sheet of the force channel.
+    """
     folder.mkdir(parents=True, exist_ok=True)
+    further = [name for name in data.runs[0].channels if name not in ("displacement", "force")]
     lines = [
         "format: dashpot-dataset/1",
         f"name: {data.name}",
+        *([f"sensors: {{force: {sheet}}}"] if sheet else []),
         "defaults:",
         "  channels:",
         "    time: {column: time, unit: s}",
         "    displacement: {column: x, unit: mm}",
         "    force: {column: F, unit: N}",
+        *(f"    {name}: {{column: {name}, unit: {UNITS[name]}}}" for name in further),
         "runs:",
     ]
     for run in data.runs:
-        rows = np.column_stack([run.time, 1e3 * run.displacement, run.force])
-        np.savetxt(folder / f"{run.name}.csv", rows, "%.9g", ",", header="time,x,F", comments="")
+        rows = [run.time, 1e3 * run.displacement, run.force, *(run.channels[name] for name in further)]
+        header = ",".join(["time", "x", "F", *further])
+        np.savetxt(folder / f"{run.name}.csv", np.column_stack(rows), "%.9g", ",", header=header, comments="")
         entry = f"  - {{name: {run.name}, file: {run.name}.csv, kind: {run.kind}"
-        settings = ", ".join(f"{key}: {1e3 * value:g} mm" for key, value in run.settings.items())
+        settings = ", ".join(f"{key}: {told(key, value)}" for key, value in run.settings.items())
         entry += f", settings: {{{settings}}}"
         entry += f", repeats: {run.repeats}" if run.repeats else ""
         entry += ", held_out: true" if run.held_out else ""
         lines.append(entry + "}")
     (folder / "dataset.yaml").write_text("\n".join(lines) + "\n", encoding="utf-8")
     return folder / "dataset.yaml"
+
+
+def told(setting: str, value: float) -> str:
+    """A setting of a run with its unit; those of the motion in mm."""
+    return f"{value:g} {UNITS[setting]}" if setting in UNITS else f"{1e3 * value:g} mm"

@@ -1,0 +1,71 @@
+"""Every cause is hidden as a law of its own, found, and written into files that say what is told."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from unit.diagnose import machines
+from unit.diagnose.files import assert_files_hold, assert_is_in_files, diagnosed
+from unit.diagnose.laws import CASES, FURTHER, faults
+from unit.diagnose.rig import REGISTRY
+from unit.diagnose.test_inside import MOUNT, NAMES
+
+EXCEPTIONS: dict[str, str] = {}  # causes without a law here, and why
+ALWAYS = ("bedding_in", "compliant_damper", "drift", "lift_off", "setting_dependence", "valve", "viscous_damping")
+TURNS = ("gain", "offset", "drift", "hum", "clipping", "delay", "moving_mass")  # faults of the rig beside a law
+OF_SPECIMEN = [word for word in CASES if REGISTRY.causes[word].kind == "specimen"]
+# a specimen that has bedded in over a session does not repeat a run of its beginning
+PAIRS = {law: TURNS[number % len(TURNS)] for number, law in enumerate(OF_SPECIMEN)} | {"bedding_in": "hum"}
+
+
+def marked(names, always=()):
+    """All of them slow but those that ``always`` run."""
+    return [name if name in always else pytest.param(name, marks=pytest.mark.slow) for name in names]
+
+
+def told_of(case, folder):
+    """The folder of a diagnosis and what it tells, whose numbers are those of its files."""
+    out = diagnosed(case.data(), folder, network=case.network, sheet=case.sheet)
+    return out, assert_files_hold(folder, folder / "simulated")
+
+
+def test_every_cause_has_a_law():
+    built_in = {word for word, cause in REGISTRY.causes.items() if cause.__module__.startswith("dashpot_causes.")}
+    assert {*CASES, *EXCEPTIONS} == built_in
+    assert not CASES.keys() & EXCEPTIONS.keys()
+
+
+@pytest.mark.parametrize("word", marked(CASES, ALWAYS))
+def test_a_cause_is_in_files_that_say_what_is_told(word, tmp_path):
+    out, told = told_of(CASES[word], tmp_path)
+    assert_is_in_files(word, out, told)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", FURTHER)
+def test_other_data_show_a_cause_that_is_in_files_that_say_what_is_told(name, tmp_path):
+    word, case = FURTHER[name]
+    out, told = told_of(case, tmp_path)
+    assert_is_in_files(word, out, told)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("law", "fault"), [pytest.param(*pair, id="+".join(pair)) for pair in PAIRS.items()])
+def test_a_cause_and_a_fault_of_the_measurement_are_in_files_that_say_what_is_told(law, fault, tmp_path):
+    out, told = told_of(faults(CASES[law])[fault], tmp_path)
+    for word in (law, fault):
+        assert_is_in_files(word, out, told)
+
+
+@pytest.mark.slow
+def test_a_cause_at_an_inner_node_is_in_files_that_say_what_is_told(tmp_path):
+    moves = [machines.sweep(amplitude, stop=12.0) for amplitude in (0.5e-3, 1e-3, 2e-3)]
+    forces = [machines.mount(25.0, moves)]
+    data = machines.measured(np.random.default_rng(1), forces, NAMES, moves, noise=1.0, held_out=["second"])
+    runs = tuple(replace(run, settings={"warm_up": 0.3}) for run in data.runs)
+    out = diagnosed(replace(data, runs=runs), tmp_path, network=MOUNT)
+    told = assert_files_hold(tmp_path, tmp_path / "simulated")
+    assert_is_in_files("friction", out, told)
+    assert told["causes"][0]["place"] == "between piston and wall"
