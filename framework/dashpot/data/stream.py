@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import suppress
+from dataclasses import replace
 from pathlib import Path
 
 from dashpot.data.declaration import RunDeclaration
@@ -119,15 +120,20 @@ class RunStream:
     def _made(self, declarations: Iterable[RunDeclaration]) -> Iterator[tuple[Run, bool]]:
         """All runs that can be read, and whether they count: the specimen was moved in one that is set aside, too."""
         for declaration in declarations:
-            counts = declaration.set_aside is None
-            run = self._run(declaration) if counts else self._aside(declaration)
+            if declaration.set_aside is not None:
+                self._note(declaration, _wished(declaration))
+            run = self._run(declaration) if declaration.set_aside is None else None
             if run:
-                yield run, counts
+                yield run, True
+            elif moved := self._moved(declaration):
+                yield moved, False
 
-    def _aside(self, declaration: RunDeclaration) -> Run | None:
-        self._note(declaration, _wished(declaration))
-        with suppress(Unusable, InputError):
-            return read_run(declaration, self._table(declaration))[0]
+    def _moved(self, declaration: RunDeclaration) -> Run | None:
+        """A run that is set aside, with its displacement alone where another channel is faulty."""
+        alone = tuple(channel for channel in declaration.channels if channel.name == "displacement")
+        for channels in filter(None, (declaration.channels, alone)):
+            with suppress(Unusable, InputError):
+                return read_run(replace(declaration, channels=channels), self._table(declaration))[0]
         return None
 
     def _run(self, declaration: RunDeclaration) -> Run | None:

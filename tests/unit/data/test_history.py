@@ -41,6 +41,25 @@ def test_a_run_that_is_set_aside_has_moved_the_specimen_all_the_same(tmp_path):
     assert set(read(tmp_path, aside).runs[-1].history) == {"reached", "moved", "moved 2"}
 
 
+@pytest.mark.parametrize("aside", [False, True])
+def test_a_run_whose_force_is_faulty_has_moved_the_specimen_all_the_same(tmp_path, aside):
+    """Its displacement is sound: whether the force is has no say in what the runs behind it know."""
+    runs = RUNS.replace("file: b.npz", "file: b.npz, set_aside: the force is lost") if aside else RUNS
+    sound = reached(tmp_path, runs), read(tmp_path, runs).runs[-1].history
+    table = dict(np.load(tmp_path / "b.npz"))
+    table["F"][100] = np.nan
+    np.savez(tmp_path / "b.npz", **table)
+    left = read(tmp_path, runs).runs
+    assert [run.name for run in left] == ["a", "c"]
+    assert left[-1].history == sound[1]
+
+
+def test_nothing_is_known_of_a_run_without_a_sound_displacement(tmp_path):
+    reached(tmp_path)
+    (tmp_path / "b.npz").write_text("no table")
+    assert set(read(tmp_path, RUNS).runs[-1].history) == {"reached", "moved"}
+
+
 def test_the_squared_velocity_is_summed_up_over_the_run_before(tmp_path):
     time = np.arange(0.0, 2.0, 1e-3)
     for name, amplitude in (("a", 3.0), ("b", 5.0), ("c", 1.0)):
