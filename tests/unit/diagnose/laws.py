@@ -389,6 +389,21 @@ def cut(run: Run, kept: Array | slice, begin: float = 0.0) -> Run:
     )
 
 
+def clipped(run: Run) -> Run:
+    """The third run of a session at the end of its range: reading sets it aside."""
+    return with_force_of(run, np.minimum(run.force, np.quantile(run.force, 0.93)))
+
+
+def interrupted(run: Run) -> Run:
+    """The third run of a session with a value that is no number, for which it is set aside."""
+    return with_force_of(run, np.where(np.arange(SAMPLES) == 500, np.nan, run.force))
+
+
+def with_force_of(run: Run, force: Array) -> Run:
+    """The third run of a session with another force."""
+    return replace(run, channels={**run.channels, "force": force}) if run.name == THIRD else run
+
+
 def slow_loop(run: Run) -> Run:
     """The slow runs among sweeps."""
     return replace(run, kind="quasi_static") if run.name in SLOW or run.repeats in SLOW else run
@@ -434,6 +449,8 @@ FURTHER = {
     ),
     "displacement in inches": ("bedding_in", in_another_unit(CASES["bedding_in"], FIRST, 1.0 / 25.4)),
     "displacement in micrometres": ("heating", in_another_unit(CASES["heating"], THIRD, 1e3)),
+    "a clipped run": ("softening", replace(CASES["softening"], recorded=clipped)),
+    "no number": ("heating", replace(CASES["heating"], recorded=interrupted)),
     "other rates": ("friction", Case(friction, recorded=at_half_the_rate)),
     "gaps": ("hum", replace(CASES["hum"], recorded=with_gaps)),
     "other lengths": ("drift", replace(CASES["drift"], recorded=shorter)),
