@@ -2,15 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-
-import numpy as np
 import pytest
-from unit.diagnose import machines
 from unit.diagnose.files import assert_files_hold, assert_is_in_files, diagnosed
 from unit.diagnose.laws import CASES, FURTHER, faults
 from unit.diagnose.rig import REGISTRY
-from unit.diagnose.test_inside import MOUNT, NAMES
 
 EXCEPTIONS: dict[str, str] = {}  # causes without a law here, and why
 ALWAYS = ("bedding_in", "compliant_damper", "drift", "lift_off", "setting_dependence", "valve", "viscous_damping")
@@ -57,15 +52,3 @@ def test_a_cause_and_a_fault_of_the_measurement_are_in_files_that_say_what_is_to
     out, told = told_of(faults(CASES[law])[fault], tmp_path)
     for word in (law, fault):
         assert_is_in_files(word, out, told)
-
-
-@pytest.mark.slow
-def test_a_cause_at_an_inner_node_is_in_files_that_say_what_is_told(tmp_path):
-    moves = [machines.sweep(amplitude, stop=12.0) for amplitude in (0.5e-3, 1e-3, 2e-3)]
-    forces = [machines.mount(25.0, moves)]
-    data = machines.measured(np.random.default_rng(1), forces, NAMES, moves, noise=1.0, held_out=["second"])
-    runs = tuple(replace(run, settings={"warm_up": 0.3}) for run in data.runs)
-    out = diagnosed(replace(data, runs=runs), tmp_path, network=MOUNT)
-    told = assert_files_hold(tmp_path, tmp_path / "simulated")
-    assert_is_in_files("friction", out, told)
-    assert told["causes"][0]["place"] == "between piston and wall"
