@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.contract.cause import Atom, Cause, Suspect, View, added_branch, branch_lines, free_name
-from dashpot.model.network import NetworkSpec
+from dashpot.model.network import Branch, NetworkSpec
 from dashpot.model.patch import add_branch
-from dashpot_causes.session import MOVED, ORDER, kept_of_runs_before, left_of_runs_before, order_of, room_of
-from dashpot_causes.setting_dependence import changed, has_curved_spring, numbers_of, stiffness_over
-from dashpot_causes.settings import Setting
+from dashpot_causes.session import MOVED, goes_by_heat, kept_of_runs_before, left_of_runs_before, room_of
+from dashpot_causes.setting_dependence import changed, numbers_of
+from dashpot_causes.settings import session_of
 
 Array = NDArray[np.float64]
 UNITS = {"stiffness": "N/m", "damping": "N*s/m", "power": "W", "time": "s", "ratio": "1", "share": "1"}
@@ -35,17 +35,18 @@ class Heating(Cause):
     about = "softening by dissipated heat"
     shows = (
         "loss falls over the run, faster where more power is dissipated, then stays; at rest it recovers. Or stiffness "
-        "and loss fall from run to run"
+        "and loss are less after runs that dissipated more"
     )
     confused_with = {
         "softening": "two runs of one speed and other damping: heat follows the power, not the speed",
         "fading_damping": "a rest between two runs: what was warm recovers, what faded for good does not",
+        "session_change": "the runs in another order: heat follows the work of the runs before, and goes at rest",
         "drift": "a fast run after a slow one: a drift does not know how fast the specimen was moved",
     }
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
         """A dashpot, alone or beside a spring, that warms up and cools, over powers and times; one that is still warm
-        of the runs before, over powers and shares; parameters of the network over the order of the runs.
+        of the runs before, over powers and shares; parameters of such a one over the order of the runs.
         """
         mean_square = max(float(np.mean(np.square(view.velocity(run)))) for run in view.runs)
         band = 2.0 * np.pi * view.highest_frequency
@@ -61,7 +62,13 @@ class Heating(Cause):
             yield _heated(anew, share, band)
             if any(view.settings(run).get(MOVED, 0.0) > 0.0 for run in view.runs):
                 yield _still_warm(warm, share, band)
-        yield from _from_run_to_run(view, network)
+        numbers = [number for number in numbers_of(network) if _is_still_warm(number.branch)]
+        if numbers and (session := session_of(view)):
+            yield replace(changed(session, numbers), form="numbers of what is warm from run to run")
+
+
+def _is_still_warm(branch: Branch) -> bool:
+    return branch.element.word == "self_heating" and goes_by_heat(branch)
 
 
 def _heated(places: Sequence[Mapping[str, float]], share: float, band: float) -> Suspect:
@@ -107,14 +114,3 @@ def _still_warm(places: Sequence[Mapping[str, float]], share: float, band: float
 
     form = f"{cold.form}, from run to run"
     return replace(cold, form=form, columns=columns, extend=extend, unknowns=cold.unknowns + 2)
-
-
-def _from_run_to_run(view: View, network: NetworkSpec) -> Iterable[Suspect]:
-    places, numbers = order_of(view), list(numbers_of(network))
-    if not places:
-        return
-    order = Setting.of(ORDER, {run: view.settings(run)[ORDER] for run in places})
-    if numbers:
-        yield replace(changed(order, numbers), form="numbers from run to run", of=())
-    if has_curved_spring(network):
-        yield replace(stiffness_over(order), form="a stiffness from run to run", of=())

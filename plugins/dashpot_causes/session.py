@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from dashpot.contract.cause import View
 from dashpot.data.history import is_history, runs_before
+from dashpot.model.network import Branch
 
 ORDER = "order"
 REACHED = "reached"  # how far the specimen was deflected in the runs before
@@ -43,6 +44,11 @@ def left_of_runs_before(settings: Mapping[str, float], word: str, kept: float) -
 def kept_of_runs_before(word: str, unit: str, kept: float) -> str:
     """The same as it stands in a file, with the share to be found."""
     return f"{{fixed: 0 {unit}, over: {{setting: {word}, kept: {{start: {kept:g}}}}}}}"
+
+
+def goes_by_heat(branch: Branch) -> bool:
+    """Whether a law goes by the motion of the runs before: what it changes over the session is its own."""
+    return any(MOVED in (value.setting, value.over.word if value.over else "") for value in branch.values.values())
 
 
 def room_of(times: Sequence[float]) -> tuple[float, float]:

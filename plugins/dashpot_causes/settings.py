@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from dashpot.contract.cause import View
 from dashpot.text.inserting import plain_or_quoted
 from dashpot.text.quantity import base_unit_of, in_unit
-from dashpot_causes.session import is_condition
+from dashpot_causes.session import ORDER, is_condition, order_of
 
 Array = NDArray[np.float64]
 
@@ -127,6 +127,12 @@ def settings_of(view: View) -> Iterator[Setting]:
         setting = Setting.of(name, values, view.unit_of(name))
         if setting.spread > 1e-9 * abs(setting.middle):
             yield setting
+
+
+def session_of(view: View) -> Setting | None:
+    """The order in which the runs were made, as a setting; none where other conditions foretell it."""
+    places = order_of(view)
+    return Setting.of(ORDER, {run: view.settings(run)[ORDER] for run in places}) if places else None
 
 
 def _value(view: View, run: str, name: str, number: float) -> float | Array:

@@ -29,6 +29,7 @@ HEATING, COOLING = 1.0 / 1000.0, 200.0  # 1/J and s
 SMALL, CAPACITY = 25.0, 60.0  # s, in which a smaller one cools, and J that halve its damping
 BRIEFLY = 6.0  # s, in which a small specimen cools
 LOST, LENGTH = 0.3, 8e-3  # share of the stiffness, and the deflection in m that takes 63 % of it
+GAINED, SETTLED = 0.3, 250.0  # share of the stiffness by which one that cures gets stiffer, and the time for it in s
 CONDITIONS = [(a, p) for a in (1.0, 2.0, 4.0) for p in (6.0, 9.0, 12.0)]
 MIXED = [CONDITIONS[k] for k in (3, 0, 7, 1, 8, 4, 2, 6, 5)]
 
@@ -76,6 +77,13 @@ def resting(motion: Motion, begin: float, state: float) -> tuple[np.ndarray, np.
     return np.zeros(course.size), np.array([np.exp(-course), np.ones(course.size)]), state * np.exp(-REST / BRIEFLY)
 
 
+def curing(motion: Motion, begin: float, state: float) -> tuple[np.ndarray, np.ndarray, float]:
+    """The same for a specimen that gets stiffer by an exponential of the clock, however it is moved."""
+    clock = begin + STEP * np.arange(motion.velocity.size)
+    factor = 1.0 - GAINED * np.expm1(-clock / SETTLED)
+    return np.zeros(factor.size), np.array([factor, np.ones(factor.size)]), 0.0
+
+
 def bedding(motion: Motion, begin: float, state: float) -> tuple[np.ndarray, np.ndarray, float]:
     """The same for a specimen that gets softer where it goes further than ever before in the session."""
     course = np.maximum(state, np.maximum.accumulate(np.abs(motion.displacement)))
@@ -108,6 +116,7 @@ def measured(folder: Path, seed: int, change, stiffness: float = STIFFNESS, damp
         (drifting, ["drift"]),
         (warming, ["heating"]),
         (carrying, ["heating"]),
+        (curing, ["session_change"]),
         pytest.param(resting, ["softening"], marks=pytest.mark.slow),
         (bedding, ["bedding_in"]),
         (steady, []),

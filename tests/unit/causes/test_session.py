@@ -1,4 +1,4 @@
-"""What changes from run to run, as runs were made one after the other: a zero, a number, a stiffness."""
+"""What changes from run to run, as runs were made one after the other: a zero, a number, a stiffness, what is warm."""
 
 from __future__ import annotations
 
@@ -55,6 +55,7 @@ def test_the_order_counts_from_the_first_run_that_is_there():
 def test_where_strokes_foretell_the_order_nothing_is_said_of_it(view):
     assert order_of(view) == {}
     assert suspects("drift", view) == {}
+    assert suspects("session_change", view) == {}
     assert not [form for form in suspects("heating", view) if "run to run" in form]
 
 
@@ -106,11 +107,28 @@ def test_a_network_with_an_offset_of_its_own_keeps_it():
 
 def test_numbers_follow_the_order_and_beside_a_curve_a_stiffness():
     view = Session()
-    plain = suspects("heating", view)
+    plain = suspects("session_change", view)
     assert "numbers from run to run" in plain and "a stiffness from run to run" not in plain
-    curved = suspects("heating", view, NETWORK.replace("stiffness: 200 N/mm", CURVE))["a stiffness from run to run"]
-    assert curved.columns(view, "r7")[0] == pytest.approx(0.5 * view.displacement("r7"))
-    text = curved.extend(NETWORK, [(-14e3, 0.0)])
+    curved = suspects("session_change", view, NETWORK.replace("stiffness: 200 N/mm", CURVE))
+    stiffness = curved["a stiffness from run to run"]
+    assert stiffness.columns(view, "r7")[0] == pytest.approx(0.5 * view.displacement("r7"))
+    text = stiffness.extend(NETWORK, [(-14e3, 0.0)])
     found = {slot.path: slot.value for slot in parse_network(text, REGISTRY.elements).slots()}
     assert found["setting_stiffness.stiffness.slope"].number == pytest.approx(-2e3)
     assert found["setting_stiffness.stiffness"].over.word == "order"
+
+
+def test_nothing_heats_by_the_order_alone():
+    """Numbers that fall from run to run, or rise, are a change over the session."""
+    assert not [form for form in suspects("heating", Session()) if "run to run" in form]
+
+
+def test_what_a_law_of_heat_changes_over_the_session_is_its_own():
+    """Beside a dashpot that is warm of the runs before: its numbers are of the heat, all others of the session."""
+    view = Moved()
+    heat = suspects("heating", view)["a dashpot that warms up, from run to run"]
+    text = heat.extend(NETWORK, [(250.0, heat.grid[0])])
+    own = suspects("heating", view, text)["numbers of what is warm from run to run"]
+    assert set(own.dependent) == {"heating.damping", "heating.power", "heating.time", "heating.share"}
+    other = suspects("session_change", view, text)["numbers from run to run"]
+    assert set(other.dependent) == {"stiffness.stiffness", "damping.damping"}
