@@ -80,15 +80,22 @@ def _heated(places: Sequence[Mapping[str, float]], share: float, band: float) ->
         tuple(float(number) for number in range(len(places))),
         lambda damping, number: _values(damping, places[int(number)], stiffness),
         UNITS,
-        unknowns=3 if stiffness else 2,
-        admits=lambda numbers: numbers["damping"] * band > HARDLY * numbers.get("stiffness", 0.0),
+        unknowns=4 if stiffness else 2,
+        admits=lambda numbers: numbers["damping"] * band > HARDLY * _lost(numbers),
         form="a dashpot and a spring that warm up" if stiffness else "a dashpot that warms up",
     )
 
 
+def _lost(numbers: Mapping[str, float]) -> float:
+    """The stiffness in N/m that goes with the first of the heat, in parts of the damping that does: the spring falls
+    `ratio` times as fast.
+    """
+    return numbers.get("ratio", 1.0) * numbers.get("stiffness", 0.0)
+
+
 def _values(damping: float, place: Mapping[str, float], stiffness: float) -> dict[str, float]:
     found = {"damping": damping, "power": damping * place["power"], "time": place["time"]}
-    return found | ({"stiffness": damping * stiffness} if stiffness else {})
+    return found | ({"stiffness": damping * stiffness, "ratio": 1.0} if stiffness else {})
 
 
 def _still_warm(places: Sequence[Mapping[str, float]], share: float, band: float) -> Suspect:

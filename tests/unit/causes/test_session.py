@@ -132,3 +132,16 @@ def test_what_a_law_of_heat_changes_over_the_session_is_its_own():
     assert set(own.dependent) == {"heating.damping", "heating.power", "heating.time", "heating.share"}
     other = suspects("session_change", view, text)["numbers from run to run"]
     assert set(other.dependent) == {"stiffness.stiffness", "damping.damping"}
+
+
+@pytest.mark.parametrize(("ratio", "damping", "named"), [(0.3, 40.0, True), (1.0, 40.0, False), (10.0, 300.0, False)])
+def test_a_spring_that_softens_with_hardly_any_damping_is_no_heating(ratio, damping, named):
+    """What goes with the heat counts: 3 % of the force at the end of the band, 50 N s/m for 2.6e5 N/m that go."""
+    band = 2.0 * np.pi * Moved().highest_frequency
+    stiffness = 50.0 * band / 0.03
+    for form in ("a dashpot and a spring that warm up", "a dashpot and a spring that warm up, from run to run"):
+        suspect = suspects("heating", Moved())[form]
+        assert suspect.admits({"damping": damping, "stiffness": stiffness, "ratio": ratio}) == named
+        text = suspect.extend(NETWORK, [(250.0, suspect.grid[0])])
+        values = {slot.path: slot.value for slot in parse_network(text, REGISTRY.elements).slots()}
+        assert values["heating.ratio"].searched and values["heating.ratio"].number == 1.0
