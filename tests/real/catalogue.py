@@ -193,10 +193,13 @@ def _catalogue() -> Iterator[MeasuredSet]:
             "decimate": 2,
         },
         runs=_friction_rig,
+        seeds=(0, 1, 8),
     )
-    for name, runs, which, cut in (
-        ("hdrb", _hdrb, "", "At each amplitude the first three cycles are a run, the other four another one."),
-        ("hdrb_settled", _hdrb_settled, ", settled", "At each amplitude cycles 4 and 5, repeated by cycles 6 and 7."),
+    later = "At each amplitude cycles 4 and 5, repeated by cycles 6 and 7."
+    first = "At each amplitude the first three cycles are a run, the other four another one."
+    for name, runs, which, cut, seeds in (
+        ("hdrb", _hdrb, "", first, (0, 1, 4)),
+        ("hdrb_settled", _hdrb_settled, ", settled", later, (0, 1, 5)),
     ):
         yield MeasuredSet(
             name=name,
@@ -213,6 +216,7 @@ def _catalogue() -> Iterator[MeasuredSet]:
                 },
             },
             runs=runs,
+            seeds=seeds,
         )
     for name, runs, which, cut in (
         ("labcontrol_off", _labcontrol_off, "off", "Every test without voltage is a run."),
@@ -248,7 +252,7 @@ def _catalogue() -> Iterator[MeasuredSet]:
             },
             runs=runs,
         )
-    for name, runs in (("o_ring", _o_ring), ("x_ring", _x_ring)):
+    for name, runs, seeds in (("o_ring", _o_ring, (0, 1, 4)), ("x_ring", _x_ring, (0, 1, 2))):
         yield MeasuredSet(
             name=name,
             folder="seal_friction_pneumatic",
@@ -259,6 +263,7 @@ def _catalogue() -> Iterator[MeasuredSet]:
                 "channels": columns((2, "mm"), (3, "N"), time={"column": 1, "unit": "s"}),
             },
             runs=runs,
+            seeds=seeds,
         )
 
 

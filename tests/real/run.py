@@ -20,7 +20,6 @@ from real.catalogue import SETS
 from real.sets import MeasuredSet
 from real.trial import Outcome, Trial, is_current, kept_outcome
 
-SEEDS = (0, 1, 2)
 COLUMNS = (
     "set",
     "base",
@@ -43,10 +42,9 @@ COLUMNS = (
 )
 
 
-def trials(
-    one: MeasuredSet, seeds: Sequence[int] = SEEDS, bases: Sequence[str] = (), whole: bool = False
-) -> list[Trial]:
+def trials(one: MeasuredSet, seeds: Sequence[int] = (), bases: Sequence[str] = (), whole: bool = False) -> list[Trial]:
     """All repetitions of a set: every base with every seed, and once with fewer runs unless it is to be `whole`."""
+    seeds = seeds or one.seeds
     return [
         trial
         for base in (bases or one.bases)
@@ -153,7 +151,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--set", nargs="*", default=list(SETS), choices=list(SETS), help="all without it")
     parser.add_argument("--base", nargs="*", default=[], help="shipped names; those of the set without it")
-    parser.add_argument("--seeds", type=int, nargs="*", default=list(SEEDS))
+    parser.add_argument("--seeds", type=int, nargs="*", default=[], help="those of the set without it")
     parser.add_argument("--whole", action="store_true", help="no trial with a fifth of the training runs removed")
     parser.add_argument("--keep", type=Path, required=True, help="folder for trials and tables")
     parser.add_argument("--stale", action="store_true", help="keep trials of an older dashpot")

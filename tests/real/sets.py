@@ -24,7 +24,8 @@ class MeasuredSet:
     """One dataset over a folder of measurements by others.
 
     `cut` says how records became runs; `runs` gives their entries in ``dataset.yaml``; `bases` are shipped networks,
-    `known_faults` the faults of the measurement that its owners tell, by the names of dashpot's causes.
+    `known_faults` the faults of the measurement that its owners tell, by the names of dashpot's causes. Each of the
+    `seeds` holds out other runs.
     """
 
     name: str
@@ -35,6 +36,7 @@ class MeasuredSet:
     runs: Callable[[], Iterable[Entry]]
     bases: tuple[str, str] = ("kelvin_voigt", "tire_model_1")
     known_faults: tuple[str, ...] = field(default=())
+    seeds: tuple[int, ...] = (0, 1, 2)
 
     @property
     def owners(self) -> dict[str, str]:

@@ -13,6 +13,9 @@ from real import judge
 from real.catalogue import SETS
 from real.run import outcome, trials
 
+import dashpot
+from dashpot.fit.holdout import split_runs
+
 pytestmark = pytest.mark.real
 
 LEAST = 0.8
@@ -47,6 +50,13 @@ def all_outcomes(outcomes):
     if not found:
         pytest.skip("no measured set is here")
     return found
+
+
+@pytest.mark.parametrize("name", PRESENT)
+def test_every_seed_holds_out_other_runs(name, tmp_path):
+    whole = dashpot.load_dataset(SETS[name].write(tmp_path), allow_outside=True)
+    held_out = {split_runs(whole, seed).held_out for seed in SETS[name].seeds}
+    assert len(held_out) == len(SETS[name].seeds)
 
 
 @pytest.mark.parametrize("name", PRESENT)

@@ -340,7 +340,7 @@ def _cause_of_faults(rank: int, cause: type[Cause], faults: Sequence[Fault]) -> 
         "gain_interval": None,
         "removal": {"held_out": None},
         "parameters": {
-            fault.run: {"value": 1.0 / fault.factor, "unit": "1", "interval": None}
+            fault.run: {"value": 1.0 / fault.factor, "unit": "1", "interval": None, "determined": None}
             for fault in faults
             if fault.factor is not None
         },

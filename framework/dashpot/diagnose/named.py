@@ -10,6 +10,7 @@ import numpy as np
 
 from dashpot.contract.cause import Cause
 from dashpot.diagnose.channel import Accused
+from dashpot.diagnose.evidence import DECADES
 from dashpot.diagnose.gain import Gain
 from dashpot.diagnose.pursuit import NAMED
 from dashpot.diagnose.term import Model, Term
@@ -132,6 +133,7 @@ class NamedCause:
                 "value": size,
                 "unit": one.kind.fault.unit,
                 "interval": None,
+                "determined": None,
             }
         slopes = per_run(self.slots)
         for path, value in self.slots.items():
@@ -140,9 +142,16 @@ class NamedCause:
                 "value": value.number,
                 "unit": value.unit,
                 "interval": list(value.interval) if value.interval else None,
+                "determined": is_known(value.interval) if value.interval else None,
                 **({"per": RUN} if path in slopes else {}),
             }
         return found
+
+
+def is_known(interval: tuple[float, float]) -> bool:
+    """Whether a 95 % interval leaves the sign and the size of a number: it holds no zero and spans less than DECADES."""
+    least, largest = sorted(map(abs, interval))
+    return interval[0] * interval[1] > 0.0 and largest < least * 10.0**DECADES
 
 
 def slots_of(network: NetworkSpec, paths: Sequence[str]) -> dict[str, Value]:

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 from typing import Any
 
-from dashpot.report.grids import cause_name, cause_title, is_likely, size_of
+from dashpot.report.grids import cause_name, cause_title, is_determined, is_likely, size_of
 from dashpot.report.readable import listed
 
 Json = Mapping[str, Any]
@@ -17,7 +17,6 @@ SIDES = {"specimen": "missing in the model", "measurement": "a fault of the meas
 PROBABLY = "probably "
 RARE = 0.1  # as surely as an accepted cause is at work, with nine in ten, what is less likely than this is not
 MOST_BEFORE_OF = 2  # words of a name that a size may follow
-WIDE = 10.0  # an interval of more than this times the value leaves the value unknown
 
 
 def likely_causes(diagnosis: Json) -> list[Json]:
@@ -38,7 +37,7 @@ def cause_phrase(cause: Json) -> str:
     if len(branches) > 1:  # "": the numbers of the first branch that it adds; else it changes numbers that were there
         return f"{cause_title(cause)} in {len(branches)} branches" if "" in branches else cause_title(cause)
     first: Json = next(iter(parameters.values()), {})
-    if not first.get("value") or not _is_known(first) or "[" in next(iter(parameters)):
+    if not first.get("value") or not is_determined(first) or "[" in next(iter(parameters)):
         return cause_title(cause)
     size = size_of(first)
     quantity_name = next(iter(parameters)).rpartition(".")[2].replace("_", " ")
@@ -52,12 +51,6 @@ def _with_size(name: str, quantity_name: str, size: str) -> str:
         return f"{name} of {size}"
     told = size if quantity_name in words else f"{quantity_name} {size}"
     return f"{name[:-1]}; {told})" if name.endswith(")") else f"{name} ({told})"
-
-
-def _is_known(parameter: Json) -> bool:
-    """Whether the interval of a value leaves anything of it."""
-    low, high = parameter.get("interval") or (0.0, 0.0)
-    return high - low <= WIDE * abs(parameter["value"])
 
 
 def named(causes: Sequence[Json]) -> str:

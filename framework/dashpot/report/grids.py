@@ -191,8 +191,14 @@ def parameter_texts(cause: Json) -> list[str]:
 
 
 def size_of(entry: Json) -> str:
-    """A parameter of a result file with its interval."""
-    return with_interval(entry["value"], entry.get("interval"), entry.get("unit") or "", entry.get("per") or "")
+    """A parameter of a result file with its interval, and a word where that leaves its sign or size open."""
+    size = with_interval(entry["value"], entry.get("interval"), entry.get("unit") or "", entry.get("per") or "")
+    return size if is_determined(entry) else f"{size}, not determined by these runs"
+
+
+def is_determined(entry: Json) -> bool:
+    """Whether the runs tell a parameter of a result file; fixed ones count as known."""
+    return entry.get("determined") is not False
 
 
 def floor_value(result: Json) -> float | None:

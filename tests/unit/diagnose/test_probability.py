@@ -8,7 +8,7 @@ import pytest
 
 from dashpot.diagnose.diagnosis import Diagnosis
 from dashpot.diagnose.leftover import Leftover
-from dashpot.diagnose.named import standing_of
+from dashpot.diagnose.named import is_known, standing_of
 from dashpot.diagnose.pursuit import Pursuit, Scored, Without
 
 FOLDS, SAMPLES = 8, 100.0
@@ -251,3 +251,11 @@ def test_repeats_that_differ_by_more_than_a_general_model_leaves_hold_more_than_
         setting=SimpleNamespace(floor=SimpleNamespace(value=repeats)), explainable=SimpleNamespace(left_out=general)
     )
     assert Diagnosis._floor.fget(found) == floor
+
+
+@pytest.mark.parametrize(
+    ("interval", "known"),
+    [((2.0, 199.0), True), ((2.0, 201.0), False), ((-199.0, -2.0), True), ((-1.0, 3.0), False), ((0.0, 3.0), False)],
+)
+def test_a_number_is_known_by_its_sign_and_to_two_decades(interval, known):
+    assert is_known(interval) is known

@@ -344,8 +344,10 @@ def test_a_force_that_ends_at_zero_has_no_size():
 
 
 def test_a_number_that_the_data_leave_open_is_not_quoted():
-    unknown = {"limit": {"value": 9.0, "interval": [1e-3, 1e6], "unit": "N"}}
+    unknown = {"limit": {"value": 9.0, "interval": [1e-3, 1e6], "unit": "N", "determined": False}}
     assert "is dry friction, missing" in headline(diagnosis(causes=[friction(parameters=unknown)]))
+    [told] = parameter_texts(friction(parameters=unknown))
+    assert told.endswith("N [0.001, 1000000], not determined by these runs")
 
 
 def test_what_is_sure_comes_before_what_cannot_be_told_apart():
