@@ -30,6 +30,7 @@ from dashpot.diagnose.single_runs import floor_of_corrected
 from dashpot.diagnose.table_rows import groups_of
 from dashpot.diagnose.term import Term
 from dashpot.fit.api import Setting, measure_errors
+from dashpot.fit.coordinates import search_coordinates
 from dashpot.fit.kept_curves import kept_curves
 from dashpot.fit.objective import as_simulated
 from dashpot.fit.result import Errors, FitResult
@@ -106,7 +107,10 @@ class Findings:
     @cached_property
     def _refined(self) -> bool:
         """Whether curves that the fit keeps as the slow loop gives them follow the runs better when they are free."""
-        return bool(kept_curves(self.fit.fitted)) and self._trained < (1.0 - self.relevance) * self.before.train
+        if not kept_curves(self.fit.fitted):
+            return False
+        free = measure_errors(self.final, self.after_setting, self.jobs)
+        return free.train < (1.0 - self.relevance) * self.before.train
 
     @property
     def spare(self) -> tuple[str, ...]:
@@ -225,15 +229,21 @@ class Findings:
 
     @cached_property
     def left_out(self) -> float | None:
-        """The error in N of the final network on training runs left out in turn; None where they cannot be."""
+        """The error in N of the written network on training runs left out in turn; None where they cannot be."""
         runs = list(self.corrected.values())
         groups = groups_of(runs, {run.name: run.cluster for run in self.setting.dataset.runs})
-        return left_out_error(self.final, self.pursuit.best.model, runs, groups, self.jobs)
+        free = self.pursuit.best.model.coordinates if self.extended_name else search_coordinates(self.fit.fitted)
+        return left_out_error(self._kept, free, runs, groups, self.jobs)
+
+    @property
+    def _kept(self) -> NetworkSpec:
+        """The network that is written: the final one, or the one that was diagnosed as it was fitted."""
+        return self.final if self.extended_name else self.fit.fitted
 
     @cached_property
     def _trained(self) -> float:
-        """The RMSE in N of the final network on the training runs."""
-        return measure_errors(self.final, self.after_setting, self.jobs).train
+        """The RMSE in N of that network on the training runs."""
+        return measure_errors(self._kept, self.after_setting, self.jobs).train
 
     @property
     def _unseen(self) -> float:

@@ -149,7 +149,7 @@ class NamedCause:
 
 
 def is_known(interval: tuple[float, float]) -> bool:
-    """Whether a 95 % interval leaves the sign and the size of a number: it holds no zero and spans less than DECADES."""
+    """Whether a 95 % interval tells sign and size of a number: it holds no zero and spans less than DECADES."""
     least, largest = sorted(map(abs, interval))
     return interval[0] * interval[1] > 0.0 and largest < least * 10.0**DECADES
 

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.diagnose.term import Model
-from dashpot.fit.coordinates import with_point
+from dashpot.fit.coordinates import Coordinates, with_point
 from dashpot.fit.linear import linearise
 from dashpot.fit.objective import Objective
 from dashpot.fit.order import ordered
@@ -33,9 +33,9 @@ def polished(model: Model, runs: Sequence[ScoredRun], jobs: int, steps: int = ST
 
 
 def left_out_error(
-    network: NetworkSpec, model: Model, runs: Sequence[ScoredRun], groups: Mapping[str, str], jobs: int
+    network: NetworkSpec, coordinates: Coordinates, runs: Sequence[ScoredRun], groups: Mapping[str, str], jobs: int
 ) -> float | None:
-    """The RMSE in N of a network on groups of runs left out in turn, fitted to the others.
+    """The RMSE in N of a network on groups of runs left out in turn, its ``coordinates`` fitted to the others.
 
     None for a single group, and where nothing is fitted.
 
@@ -44,10 +44,9 @@ def left_out_error(
     reaches, is not put to the test: all runs together count as much as one group.
     """
     names = list(dict.fromkeys(groups[run.name] for run in runs))
-    if len(names) < 2 or not model.coordinates.paths:
+    if len(names) < 2 or not coordinates.paths:
         return None
     objective = Objective(compile_network(network), runs, jobs)
-    coordinates = model.coordinates
     point = coordinates.of_values(objective.network.start)
     linear = linearise(objective, coordinates, point)
     grams = np.zeros((len(names), *linear.gram.shape))

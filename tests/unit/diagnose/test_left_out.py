@@ -26,7 +26,7 @@ def test_a_network_is_fitted_to_the_other_groups_and_judged_on_each():
         told = np.concatenate([*others, kept], axis=1)
         numbers = np.linalg.lstsq(told[:2].T, told[2], rcond=None)[0]
         squares.append(np.sum((left_out[2] - numbers @ left_out[:2]) ** 2))
-    found = left_out_error(made.model.fitted, made.model, made.refitter.runs, made.groups, 1)
+    found = left_out_error(made.model.fitted, made.model.coordinates, made.refitter.runs, made.groups, 1)
     assert found == pytest.approx(np.sqrt(np.mean(squares)), rel=1e-4)
 
 
@@ -41,7 +41,7 @@ def test_what_one_run_alone_tells_is_not_put_to_the_test():
     slow = {name: Motion(motion.amplitude, motion.preload, 1.05) for name, motion in MOTIONS.items()}
     motions = {**slow, "fast": Motion(3e-3, 8e-3, 20.0)}
     made = bench(dataset(lambda motion: plain(motion) + 2e4 * motion.v() * np.abs(motion.v()), motions=motions))
-    found = left_out_error(made.model.fitted, made.model, made.refitter.runs, made.groups, 1)
+    found = left_out_error(made.model.fitted, made.model.coordinates, made.refitter.runs, made.groups, 1)
     assert trained(made) < found < 1.2 * trained(made)
 
 
@@ -53,17 +53,17 @@ def test_a_step_that_leads_far_away_is_damped():
         for n, limit, k, exponent in ((1, 25, 120, 1), (2, 15, 60, 0.5), (3, 20, 20, 2))
     )
     made = bench(dataset(lambda motion: plain(motion) + friction(motion, 300.0, 1.5e-3)), NETWORK + sliders)
-    found = left_out_error(made.model.fitted, made.model, made.refitter.runs, made.groups, 1)
+    found = left_out_error(made.model.fitted, made.model.coordinates, made.refitter.runs, made.groups, 1)
     assert trained(made) < found < 1.05 * trained(made)
 
 
 def test_a_single_group_cannot_be_left_out():
     made = bench(dataset())
     together = dict.fromkeys(made.groups, "all")
-    assert left_out_error(made.model.fitted, made.model, made.refitter.runs, together, 1) is None
+    assert left_out_error(made.model.fitted, made.model.coordinates, made.refitter.runs, together, 1) is None
 
 
 def test_a_network_without_free_parameters_is_not_fitted():
     fixed = NETWORK.replace("{start: 150 N/mm}", "200 N/mm").replace("{start: 200 N*s/m}", "400 N*s/m")
     made = bench(dataset(), fixed)
-    assert left_out_error(made.model.fitted, made.model, made.refitter.runs, made.groups, 1) is None
+    assert left_out_error(made.model.fitted, made.model.coordinates, made.refitter.runs, made.groups, 1) is None

@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 import numpy as np
+import pytest
 from unit.diagnose.rig import MOTIONS, SAMPLES, STIFFNESS, dataset
 
 import dashpot as dp
@@ -39,3 +40,7 @@ def test_a_slow_loop_that_wanders_does_not_give_the_curve_of_the_file():
 def test_a_curve_that_follows_all_runs_stays_as_the_slow_loop_gives_it():
     found = dp.diagnose(parse_network(CURVED, dp.load_registry().elements), with_slow_run(0.0), jobs=1)
     assert found.named == () and found.extended_name is None
+    # what is told of runs left out is that of the written network as well: its curve is not fitted to the others
+    [slot] = [slot for slot in found.fit.fitted.slots() if slot.value.searched]
+    assert slot.path == "damping.damping"
+    assert found.left_out == pytest.approx(found.after.train, rel=3e-4)
