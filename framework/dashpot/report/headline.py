@@ -138,7 +138,7 @@ def _without_names(verdict: str, errors: Errors, names: Sequence[str]) -> str:
     if verdict == "bad_data":
         return "The measurement is at fault first."
     if verdict == "nothing_missing":
-        return "Nothing is missing: no candidate cause is supported by the data."
+        return _without_floor(errors)
     none = "the cause is not identifiable from these data" if verdict == "ambiguous" else "no known cause fits"
     told = _counted(names) if names and verdict != "unexplained" else none
     return f"{_short_error(errors)}: {told}."
@@ -201,8 +201,13 @@ def _part(gain: float | None, causes: list[Json], runs: str) -> str:
 
 def _nothing_missing(diagnosis: Json, errors: Errors) -> str:
     if errors.written is None or not errors.floor:
-        return f"Nothing is missing: no candidate cause is supported by the data.{_limit(diagnosis)}"
+        return f"{_without_floor(errors)}{_limit(diagnosis)}"
     return f"{_at_floor(errors)}{_limit(diagnosis)}"
+
+
+def _without_floor(errors: Errors) -> str:
+    error = "" if errors.written is None else f"; the error is {quantity(errors.written, 'N')}, its noise is unknown"
+    return f"Nothing is missing as far as these data tell: they support no candidate cause{error}."
 
 
 def _at_floor(errors: Errors) -> str:

@@ -223,6 +223,14 @@ def test_the_explainable_error_of_cross_validation_is_called_so():
     assert "RMSE on training runs: before 14.0 N, explainable in cross-validation 60.0 N" in beside_references(told)
 
 
+@pytest.mark.parametrize("short", [False, True])
+def test_without_a_noise_floor_nothing_is_said_to_be_at_it(short):
+    told = diagnosis(verdict="nothing_missing", causes=[], rmse={"before": {"train": 12.0}, "after": {"train": 12.0}})
+    told = {**told, "noise_floor": {"value": None, "from": None}}
+    found = short_headline(told) if short else headline(told)
+    assert "they support no candidate cause; the error is 12.0 N, its noise is unknown." in found
+
+
 def test_a_slope_over_the_order_of_the_runs_is_per_run():
     slope = {"value": -5.2, "interval": [-7.6, -2.9], "unit": "N", "per": "run"}
     assert parameter_texts(friction(parameters={"slope": slope})) == ["slope -5 N per run [-8, -3]"]
