@@ -144,11 +144,12 @@ def _uneven(refitter: Refitter, look: Look, residual: Mapping[str, Array]) -> Le
     """Whether the size of the residual follows the motion, as that of a law does and that of noise does not.
 
     The score test of Breusch and Pagan, studentised (Koenker, Journal of Econometrics 17 (1981) 107): squares of the
-    residual over those of deflection, velocity and acceleration.
+    residual over the ranks of deflection, velocity and acceleration. By their size a few samples, such as the corners
+    of a triangle, would have all the leverage, and their noise would decide.
     """
     found, names = [], list[str]()
     for run in records(refitter.runs):
-        functions = _sizes(look.view, run.name)
+        functions = _ranks(look.view, run.name)
         names = list(functions)
         rows = np.array([*functions.values(), np.ones(run.force.size)])[:, run.first :]
         sums = look.measured_noise.reduce(run.name, rows)
@@ -167,15 +168,17 @@ def _uneven(refitter: Refitter, look: Look, residual: Mapping[str, Array]) -> Le
     return Leftover(excess / float(np.sqrt(2.0 * len(names))), size, f"grows with {names[int(np.argmax(alone))]}")
 
 
-def _sizes(view: ModelView, run: str) -> dict[str, Array]:
-    """The squares (n,) of what moves a run, by name."""
+def _ranks(view: ModelView, run: str) -> dict[str, Array]:
+    """The ranks (n,), from 0 to 1, of the size of what moves a run, by name."""
+    from scipy.stats import rankdata
+
     x, v = view.displacement(run), view.velocity(run)
     moved = {
         "the deflection from the middle of the run": x - np.mean(x),
         "the velocity": v,
         "the acceleration": np.gradient(v, view.step(run)),
     }
-    return {name: (signal / max(float(np.std(signal)), 1e-300)) ** 2 for name, signal in moved.items()}
+    return {name: rankdata(np.abs(signal)) / signal.size for name, signal in moved.items()}
 
 
 def _agreement(white: Mapping[str, Array], pairs: Sequence[tuple[str, str]]) -> Leftover:

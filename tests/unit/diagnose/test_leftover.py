@@ -1,5 +1,7 @@
 """How much of the residual is structure that no cause explains."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.signal import lfilter
@@ -80,6 +82,20 @@ def test_a_residual_that_grows_with_the_deflection_is_no_noise(seed, share, told
     assert found.notable() is told
     if told:
         assert found.what == "grows with the deflection from the middle of the run"
+
+
+def test_the_noise_at_the_corner_of_a_triangle_is_no_law():
+    """There is all of the acceleration: four standard deviations at the corner would be a size that follows it."""
+    data, again = dataset(noise=NOISE), np.linspace(-1.0, 1.0, SAMPLES)
+    x = 8e-3 + 5e-3 * (1.0 - 2.0 * np.abs(again))
+    step = reduction(STEP, highest_frequency(bench(data).refitter.runs))
+    corner = np.abs(np.arange(SAMPLES) - SAMPLES // 2) <= step // 2
+    force = 200e3 * x + 400.0 * np.gradient(x, STEP) + coloured(1, NOISE, 0.0)
+    force[corner] += 4.0 * NOISE / np.sqrt(step)
+    slow = Run("slow", "quasi_static", STEP * np.arange(SAMPLES), {"displacement": x, "force": force}, group="slow")
+    made = bench(replace(data, runs=(*data.runs, slow)))
+    look = look_at(made.refitter, made.model, causes("friction"), folds_of(made.refitter.runs, made.groups))
+    assert not look_for_leftover(made.refitter, look, []).notable()
 
 
 def test_an_undriven_line_is_no_noise_though_repeats_differ_by_it():
