@@ -221,13 +221,17 @@ def behind_spring(motion: Motion, spring: Callable[[float], float], flow: Callab
 
 @dataclass(frozen=True)
 class Case:
-    """A law, the cause that it is, the network that is diagnosed, and the spring and damper beside the law."""
+    """A law, the cause that it is, the network that is diagnosed, and the spring and damper beside the law.
+
+    Of one that is not ``sure`` the elements miss so much that no cause may be accepted.
+    """
 
     word: str
     law: Law
     model: str = HEAD + SPRING + DAMPER
     stiffness: float = STIFFNESS
     damping: float = DAMPING
+    sure: bool = True
 
     def force(self, motion: Motion, state: State) -> Array:
         """All that the load cell carries."""
@@ -239,7 +243,7 @@ CASES = [
     Case("setting_dependence", arrhenius, damping=0.0),
     Case("valve", blow_off),
     Case("valve", oil_column),
-    Case("valve", late_disc),
+    Case("valve", late_disc, sure=False),
     Case("compliant_damper", top_mount, damping=0.0),
     Case("compliant_damper", hose, HEAD + SPRING + ORIFICE, damping=0.0),
     Case("gas_spring", gas),
@@ -253,7 +257,7 @@ CASES = [
     Case("load_dependent_friction", leaves),
     Case("preload_dependent_damping", growing_contact),
     Case("fading_damping", foaming),
-    Case("loose_mass", rattling),
+    Case("loose_mass", rattling, sure=False),
     Case("loose_mass", dragged),
 ]
 
@@ -311,6 +315,7 @@ def test_the_law_is_the_cause_that_is_worth_most(tmp_path, seed, case):
     print(found["verdict"], told, found["rmse"])
     most = max(found["causes"], key=lambda cause: cause["gain"] or 0.0, default={"cause": "nothing"})
     assert most["cause"] == case.word
+    assert most["accepted"] if case.sure else found["verdict"] == "unexplained"
 
 
 def test_a_lip_that_grips_one_way_and_slides_at_once_is_told_by_its_two_limits(tmp_path, seed):
