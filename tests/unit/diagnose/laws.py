@@ -243,6 +243,15 @@ def bedding(motions: Mapping[str, Motion]) -> dict[Motion, Array]:
     return found
 
 
+def hardening(motions: Mapping[str, Motion]) -> dict[Motion, Array]:
+    """A spring that gets harder by an exponential of the clock, whatever its motion and its rest."""
+    found = {}
+    for number, motion in enumerate(motions.values()):
+        clock = number * (TIME[-1] + REST)
+        found[motion] = STIFFNESS * motion.x() * (1.2 - 0.2 * np.exp(-clock / 90.0)) + DAMPING * motion.v()
+    return found
+
+
 # what follows a temperature
 
 HOT = {name: 293.0 + 15.0 * (k % 3) for k, name in enumerate(mixed(GRID))}
@@ -293,6 +302,7 @@ CASES = {
     "quadratic_damping": Case(lambda m: 1500.0 * m.v() * np.abs(m.v())),
     "relaxation": Case(relaxation),
     "resonance": Case(weight_on_spring),
+    "session_change": Case(session=hardening, motions=SESSION),
     "setting_dependence": Case(
         oil, alone=True, motions=mixed(GRID), settings={name: {"temperature": kelvin} for name, kelvin in HOT.items()}
     ),

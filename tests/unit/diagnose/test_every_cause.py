@@ -11,8 +11,9 @@ EXCEPTIONS: dict[str, str] = {}  # causes without a law here, and why
 ALWAYS = ("bedding_in", "compliant_damper", "drift", "lift_off", "setting_dependence", "valve", "viscous_damping")
 TURNS = ("gain", "offset", "drift", "hum", "clipping", "delay", "moving_mass")  # faults of the rig beside a law
 OF_SPECIMEN = [word for word in CASES if REGISTRY.causes[word].kind == "specimen"]
-# a specimen that has bedded in over a session does not repeat a run of its beginning
-PAIRS = {law: TURNS[number % len(TURNS)] for number, law in enumerate(OF_SPECIMEN)} | {"bedding_in": "hum"}
+PAIRS = {law: TURNS[number % len(TURNS)] for number, law in enumerate(OF_SPECIMEN)}
+# a specimen that changes over a session does not repeat a run of its beginning
+PAIRS |= {"bedding_in": "hum", "heating": "delay", "session_change": "clipping", "softening": "moving_mass"}
 
 
 def marked(names, always=()):
