@@ -29,11 +29,12 @@ class Gain(Cause):
         return ()
 
     def channel_faults(self, view: View) -> Iterable[ChannelFault]:
-        """A relative error of the force."""
+        """A relative error of the force; no gain turns it round."""
         yield ChannelFault(
             "gain",
             "gain error",
             "1",
             lambda view, run: view.force(run)[None],
             lambda strengths: Correction(gain=1.0 / (1.0 + strengths[0])),
+            possible=lambda strengths: strengths[0] > -1.0,
         )

@@ -154,7 +154,7 @@ class ChannelFault:
     out from the scatter of all repeats. Where it does not, it is what no change of the model's numbers from one test
     to the next explains. ``alike(view, run)`` are shapes (m, k, n) of faults like it that no rig has,
     such as lines beside that of the mains: what these explain is the error of the model. The last ``free`` shapes go
-    along with the others, and are no evidence of the fault.
+    along with the others, and are no evidence of the fault. ``possible(strengths)`` says whether a rig can have it.
 
     Examples:
         >>> fault = dp.ChannelFault(
@@ -178,6 +178,7 @@ class ChannelFault:
     scatters: bool = True
     alike: Callable[[View, str], Array] | None = None
     free: int = 0
+    possible: Callable[[Sequence[float]], bool] = lambda strengths: True
 
 
 class Cause(ABC):

@@ -198,6 +198,8 @@ class _Selection:
         """The evidence of a fault that is large enough; empty where a law of the specimen could do the same."""
         if self.solver.gain(key, chosen) < self.relevance * self.solver.rows.residual[key[0]].size:
             return ""
+        if not self.kinds[key[1]].fault.possible(self.solver.strengths([*chosen, key])[key].tolist()):
+            return ""
         evidence = _evidence(key, chosen, self.alone, self.kinds, self.pairs, self.groups, self.measured, self._price)
         rival = evidence.startswith("repeats") and self.kinds[key[1]].fault.scatters
         return "" if rival and _changed(self.solver, key, chosen, self._shares[key[0]]) else evidence

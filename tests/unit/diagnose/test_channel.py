@@ -73,6 +73,13 @@ def test_a_repeat_that_differs_is_accused_with_its_size(word):
     assert np.std(one.correction.apply(wrong, 2e-3) - sound) < 0.15 * np.std(wrong - sound) + 0.5
 
 
+@pytest.mark.parametrize(("factor", "accused"), [(0.2, True), (-0.24, False)])
+def test_no_gain_turns_a_force_round(factor, accused):
+    found = examined(dataset(repeats=AGAIN, fault={"again": lambda force: factor * force}))
+    assert (("again", "gain") in found) is accused
+    assert not [one for (_, word), one in found.items() if word == "gain" and one.strengths[0] <= -1.0]
+
+
 def test_a_specimen_that_changed_between_two_tests_accuses_no_run():
     """From the fourth run on it is softer by 3 %: the repeat of the first run differs, that of the sixth does not."""
     repeats = {"again": "a1_p5", "once_more": "a3_p11"}
