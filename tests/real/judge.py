@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Iterable, Mapping
 from itertools import groupby
+from typing import Any
 
 from real.trial import Outcome
 
@@ -36,10 +37,18 @@ def accused(outcome: Outcome, known: Iterable[str] = ()) -> list[str]:
 
 
 def names(outcome: Outcome) -> frozenset[str]:
-    """What the specimen was said to do: the accepted causes, of a dependence what follows which setting."""
+    """What the specimen was said to do: the accepted causes, of a dependence what something depends on.
+
+    What depends on it is told by branches, of which several may be the same law, numbered as they were found.
+    """
     told = [cause for cause in outcome.causes if cause["class"] == "specimen"]
-    accepted = [cause for cause in told if cause["standing"] == "accepted"]
-    return frozenset(cause["title" if cause["cause"] == "setting_dependence" else "cause"] for cause in accepted)
+    return frozenset(_name(cause) for cause in told if cause["standing"] == "accepted")
+
+
+def _name(cause: Mapping[str, Any]) -> str:
+    if cause["cause"] != "setting_dependence":
+        return str(cause["cause"])
+    return f"dependence on {cause['title'].rpartition(' on ')[2]}"
 
 
 def near(outcome: Outcome) -> bool:
@@ -92,15 +101,10 @@ def same_beyond_bases(outcomes: Iterable[Outcome]) -> dict[str, tuple[int, int]]
     key = lambda one: one.set  # noqa: E731
     found = {}
     for place, group in groupby(sorted(outcomes, key=key), key):
-        said = [None if one.verdict == "failed" else frozenset(_of_any_base(one)) for one in group]
+        said = [None if one.verdict == "failed" else names(one) - OF_BASES for one in group]
         counts = Counter(one for one in said if one is not None)
         found[place] = (max(counts.values(), default=0), len(said))
     return found
-
-
-def _of_any_base(outcome: Outcome) -> Iterable[str]:
-    """What no base does of itself, of a dependence the setting alone: branches have other names in each base."""
-    return (name.rpartition(" on ")[2] for name in names(outcome) - OF_BASES)
 
 
 def share(counts: Mapping[object, tuple[int, int]]) -> float:

@@ -57,7 +57,7 @@ def test_repetitions_agree_with_what_most_of_them_name():
     assert judge.same_names([*said, made("failed")]) == {("one", "kelvin_voigt"): (2, 4)}
 
 
-def test_a_dependence_is_the_same_where_the_same_thing_follows_the_same_setting():
+def test_a_dependence_is_the_same_where_something_follows_the_same_setting():
     def saying(title, base="kelvin_voigt"):
         cause = {"cause": "setting_dependence", "class": "specimen", "standing": "accepted"}
         one = made(base=base)
@@ -65,7 +65,7 @@ def test_a_dependence_is_the_same_where_the_same_thing_follows_the_same_setting(
         return one
 
     said = [saying("damping on current"), saying("friction on current"), saying("damping on pressure")]
-    assert judge.same_names(said) == {("one", "kelvin_voigt"): (1, 3)}
+    assert judge.same_names(said) == {("one", "kelvin_voigt"): (2, 3)}
     assert judge.same_beyond_bases([*said, saying("maxwell on current", "tire_model_1")]) == {"one": (3, 4)}
 
 
