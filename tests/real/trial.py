@@ -175,26 +175,19 @@ def outcome_of(trial: Trial, told: Mapping[str, Any] | None, spent: Spent) -> Ou
 
 
 def errors_of_files(told: Mapping[str, Any], folder: Path, dataset: Path) -> dict[str, float]:
-    """The errors of the files that were written, simulated by command: before and after, on training and held-out runs.
-
-    Training runs are those of the corrected dataset, but before the causes only with what triage corrected in them;
-    held-out runs are as they were measured.
-    """
-    corrected = folder / told["corrected_dataset"] if told["corrected_dataset"] else dataset
-    after = folder / (told["extended_model"] or told["fitted_model"])
-    before = folder / told["fitted_model"]
-    mended = {fault["run"] for fault in told["faults"] if fault["factor"] is not None}
-    measured, put_right = errors_by_run(before, dataset), errors_by_run(before, corrected)
-    first = {run: put_right[run] if run in mended else measured[run] for run in put_right}
-    last = errors_by_run(after, corrected)
-    unseen = set(told["held_out"])
-    found = {
-        "before.train": [value for run, value in first.items() if run not in unseen],
-        "before.held_out": [value for run, value in measured.items() if run in unseen],
-        "after.train": [value for run, value in last.items() if run not in unseen],
-        "after.held_out": [value for run, value in errors_by_run(after, dataset).items() if run in unseen],
+    """The errors of the written files, simulated by command: before and after, on training and held-out runs."""
+    files = {
+        "before": (told["fitted_model"], told["triaged_dataset"]),
+        "after": (told["extended_model"] or told["fitted_model"], told["corrected_dataset"]),
     }
-    return {name: float(np.sqrt(np.mean(np.square(errors)))) for name, errors in found.items() if errors}
+    found = {}
+    for when, (network, corrected) in files.items():
+        by_run = errors_by_run(folder / network, folder / corrected if corrected else dataset)
+        unseen = by_run.keys() & set(told["held_out"])
+        for kind, runs in ("train", by_run.keys() - unseen), ("held_out", unseen):
+            if runs:
+                found[f"{when}.{kind}"] = float(np.sqrt(np.mean(np.square([by_run[run] for run in runs]))))
+    return found
 
 
 def errors_by_run(network: Path, dataset: Path) -> dict[str, float]:

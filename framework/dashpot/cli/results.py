@@ -15,7 +15,8 @@ if TYPE_CHECKING:
     from dashpot.compare.look import Look
     from dashpot.contract.registry import Registry
     from dashpot.diagnose.diagnosis import Diagnosis
-    from dashpot.fit.result import FitResult
+    from dashpot.fit.api import Setting
+    from dashpot.fit.result import Errors, FitResult
     from dashpot.report.evidence import Evidence
 
 SAME_ERROR = 1e-6  # of an RMSE: what is told and what the files say
@@ -25,7 +26,8 @@ LOOK_FILES = ("look.json", "report.html")
 
 def diagnosis_files(network: str) -> tuple[str, ...]:
     """Patterns of the files that the diagnosis of a network may write."""
-    return "diagnosis.json", "report.html", "dataset.yaml", f"{escape(network)}.yaml", f"{escape(network)}+*.yaml"
+    told = ("diagnosis.json", "report.html", "dataset.yaml", "dataset.triage.yaml")
+    return *told, f"{escape(network)}.yaml", f"{escape(network)}+*.yaml"
 
 
 def fit_files(network: str) -> tuple[str, ...]:
@@ -124,36 +126,55 @@ def write_diagnosis(diagnosis: Diagnosis, folder: OutputFolder) -> Path:
         results.write(diagnosis.fitted_name, diagnosis.fitted_text)
         if diagnosis.extended_name is not None and diagnosis.extended_text is not None:
             results.write(diagnosis.extended_name, diagnosis.extended_text)
-        if diagnosis.corrected_name is not None:
-            results.write(diagnosis.corrected_name, diagnosis.corrected_dataset(folder.path))
+        for name, text in diagnosis.datasets(folder.path).items():
+            results.write(name, text)
         return results.write("report.html", render(diagnosis_page(content, evidence)))
 
 
 def checked(diagnosis: Diagnosis, folder: OutputFolder, registry: Registry) -> str:
     """The written files read again and simulated: what was told beside what they say. InputError where they differ."""
+    before, after = diagnosis.fitted_name, diagnosis.extended_name or diagnosis.fitted_name
+    setting = _read_again(diagnosis.setting, diagnosis.triaged_name, diagnosis.seed, folder, registry)
+    _held(diagnosis.before, _measured_again(before, setting, diagnosis.jobs, folder, registry), folder.path / before)
+    setting = _read_again(diagnosis.after_setting, diagnosis.corrected_name, diagnosis.seed, folder, registry)
+    found = _measured_again(after, setting, diagnosis.jobs, folder, registry)
+    _held(diagnosis.after, found, folder.path / after)
+    runs = f"{found.train:.4g} N on training runs"
+    runs += "" if found.held_out is None else f", {found.held_out:.4g} N on held-out runs"
+    return f"check: {after} read again and simulated has the reported RMSE: {runs}"
+
+
+def _read_again(setting: Setting, name: str | None, seed: int, folder: OutputFolder, registry: Registry) -> Setting:
+    """The setting with the runs of the corrected dataset of a name; the setting itself where there is none."""
     from dashpot.data.dataset import read_dataset
-    from dashpot.fit.api import measure_errors, prepare
+    from dashpot.fit.api import prepare
+
+    if name is None:
+        return setting
+    readers = {word: reader() for word, reader in registry.formats.items()}
+    again = prepare(read_dataset(folder.path / name, readers, allow_outside=True), seed)
+    return replace(setting, scored={run: again.scored[run] for run in setting.scored})
+
+
+def _measured_again(name: str, setting: Setting, jobs: int, folder: OutputFolder, registry: Registry) -> Errors:
+    """The errors of a written network, read again."""
+    from dashpot.fit.api import measure_errors
     from dashpot.model.reading import read_network
+
+    return measure_errors(read_network(str(folder.path / name), registry.elements), setting, jobs)
+
+
+def _held(told: Errors, found: Errors, network: Path) -> None:
+    """InputError where the errors that a written network was found to have are not those that were told."""
     from dashpot.text.problem import InputError, Place
 
-    name = diagnosis.extended_name or diagnosis.fitted_name
-    network = read_network(str(folder.path / name), registry.elements)
-    setting = diagnosis.after_setting
-    if diagnosis.corrected_name is not None:
-        readers = {word: reader() for word, reader in registry.formats.items()}
-        corrected = read_dataset(folder.path / diagnosis.corrected_name, readers, allow_outside=True)
-        again = prepare(corrected, diagnosis.seed)
-        setting = replace(setting, scored={run: again.scored[run] for run in setting.scored})
-    told, found = diagnosis.after, measure_errors(network, setting, diagnosis.jobs)
     for one, other in ((told.train, found.train), (told.held_out, found.held_out)):
         if one is not None and other is not None and abs(one - other) > SAME_ERROR * one:
             raise InputError.at(
-                Place(str(folder.path / name)),
+                Place(str(network)),
                 f"expected an RMSE of {one:.9g} N, got {other:.9g} N",
                 "the result does not hold: please report it with the dataset",
             )
-    unseen = "" if found.held_out is None else f", {found.held_out:.4g} N on held-out runs"
-    return f"check: {name} read again and simulated has the reported RMSE: {found.train:.4g} N on training runs{unseen}"
 
 
 def comparison_text(comparison: Comparison) -> str:

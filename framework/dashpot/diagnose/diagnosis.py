@@ -152,6 +152,7 @@ class Diagnosis(Findings):
             "fitted_model": self.fitted_name,
             "extended_model": self.extended_name,
             "corrected_dataset": self.corrected_name,
+            "triaged_dataset": self.triaged_name,
             "held_out": list(self.setting.split.held_out),
             "tried": len(self.pursuit.look.candidates),
             "structures": self._structures(),

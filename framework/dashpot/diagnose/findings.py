@@ -45,6 +45,7 @@ from dashpot.triage.examine import Triage
 Array = NDArray[np.float64]
 
 ALONE = 2.0  # times the error of the worst training run
+CORRECTED, TRIAGED = "dataset.yaml", "dataset.triage.yaml"  # with all faults put right, with those of triage alone
 NEAR_FLOOR = 2.0  # times the noise floor: beyond it the RMSE of a model is more than noise
 # how the head of a file calls a term, by its standing
 IN_FILES = {"accepted": "cause", "probable": "probable cause", "resembles": "resembles"}
@@ -172,15 +173,20 @@ class Findings:
     @property
     def corrections(self) -> dict[str, Correction]:
         """What puts runs right, by run: what triage found, and the faults that runs were accused of."""
-        found = {
-            fault.run: _multiplied(fault.channel, fault.factor)
-            for fault in self.triage.faults
-            if fault.factor is not None
-        }
+        found = self._certain
         for one in self.accused:
             known = found.get(one.run)
             found[one.run] = known.then(one.correction) if known else one.correction
         return found
+
+    @property
+    def _certain(self) -> dict[str, Correction]:
+        """The signs and units that triage corrects, by run."""
+        return {
+            fault.run: _multiplied(fault.channel, fault.factor)
+            for fault in self.triage.faults
+            if fault.factor is not None
+        }
 
     @property
     def set_aside(self) -> dict[str, str]:
@@ -192,12 +198,30 @@ class Findings:
 
     @property
     def corrected_name(self) -> str | None:
-        """File name of the corrected dataset; None where no run was corrected or set aside, or there is no file."""
-        return "dataset.yaml" if (self.corrections or self.set_aside) and self.setting.dataset.document else None
+        """File name of the corrected dataset, that of the error after.
 
-    def corrected_dataset(self, folder: Path) -> str:
-        """The text of the corrected dataset, to be written into a folder."""
-        return corrected_text(self.setting.dataset, self.corrections, self.set_aside, folder)
+        None where no run was corrected or set aside, or there is no file.
+        """
+        return CORRECTED if (self.corrections or self.set_aside) and self.setting.dataset.document else None
+
+    @property
+    def triaged_name(self) -> str | None:
+        """File name of the dataset with what triage found and nothing else, that of the error before.
+
+        None where triage found nothing, or there is no file.
+        """
+        if not (self._certain or self.set_aside):
+            return None
+        return TRIAGED if self.accused and self.corrected_name else self.corrected_name
+
+    def datasets(self, folder: Path) -> dict[str, str]:
+        """The texts of the corrected datasets by file name, to be written into a folder."""
+        written = {self.triaged_name: self._certain, self.corrected_name: self.corrections}
+        return {
+            name: corrected_text(self.setting.dataset, corrections, self.set_aside, folder)
+            for name, corrections in written.items()
+            if name
+        }
 
     # what the files say
 
@@ -233,17 +257,17 @@ class Findings:
         runs = list(self.corrected.values())
         groups = groups_of(runs, {run.name: run.cluster for run in self.setting.dataset.runs})
         free = self.pursuit.best.model.coordinates if self.extended_name else search_coordinates(self.fit.fitted)
-        return left_out_error(self._kept, free, runs, groups, self.jobs)
+        return left_out_error(self._chosen, free, runs, groups, self.jobs)
 
     @property
-    def _kept(self) -> NetworkSpec:
+    def _chosen(self) -> NetworkSpec:
         """The network that is written: the final one, or the one that was diagnosed as it was fitted."""
         return self.final if self.extended_name else self.fit.fitted
 
     @cached_property
     def _trained(self) -> float:
         """The RMSE in N of that network on the training runs."""
-        return measure_errors(self._kept, self.after_setting, self.jobs).train
+        return measure_errors(self._chosen, self.after_setting, self.jobs).train
 
     @property
     def _unseen(self) -> float:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Callable
 from importlib import import_module
+from pathlib import Path
 from types import MappingProxyType, SimpleNamespace
 
 import pytest
@@ -109,6 +110,10 @@ class FakeResult:
             "causes": [],
             "extended_model": None,
         }
+
+    def datasets(self, folder: Path) -> dict[str, str]:
+        """No run is corrected."""
+        return {}
 
     def evidence(self) -> dict:
         """Nothing beside."""

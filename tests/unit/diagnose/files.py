@@ -33,16 +33,11 @@ def read(data: Path) -> Dataset:
     return read_dataset(data, {word: reader() for word, reader in REGISTRY.formats.items()})
 
 
-def errors(
-    network: Path, data: Path, folder: Path, held_out: Collection[str], aside: Collection[str] = ()
-) -> dict[str, float]:
-    """RMSE of training runs and of ``held_out`` runs by `dashpot simulate` and the forces as they are read.
-
-    Without the runs that were set ``aside``.
-    """
+def errors(network: Path, data: Path, folder: Path, held_out: Collection[str]) -> dict[str, float]:
+    """RMSE of training runs and of ``held_out`` runs by `dashpot simulate` and the forces as they are read."""
     assert main(["simulate", str(network), "--data", str(data), "-o", str(folder), "--quiet", "--force"]) == 0
     found: dict[bool, list[float]] = {True: [], False: []}
-    for run in (run for run in read(data).runs if run.name not in aside):
+    for run in read(data).runs:
         force = np.genfromtxt(folder / f"{run.name}.csv", delimiter=",", skip_header=2)[:, -1]
         first = int(round(WARM_UP * run.time.size))
         found[run.name in held_out].append(np.mean((run.force - force)[first:] ** 2))
@@ -56,9 +51,8 @@ def assert_files_hold(folder: Path, tmp_path: Path) -> dict[str, Any]:
     plain_data = folder / "data" / "dataset.yaml"
     corrected = out / told["corrected_dataset"] if told["corrected_dataset"] else plain_data
     assert corrected.exists()
-    aside = {fault["run"] for fault in told["faults"]} - {run.name for run in read(corrected).runs}
-    sound = with_units(plain_data, folder / "sound", told["faults"])
-    before = errors(out / told["fitted_model"], sound, tmp_path / "before", told["held_out"], aside)
+    triaged = out / told["triaged_dataset"] if told["triaged_dataset"] else plain_data
+    before = errors(out / told["fitted_model"], triaged, tmp_path / "before", told["held_out"])
     final = out / (told["extended_model"] or told["fitted_model"])
     after = errors(final, corrected, tmp_path / "after", told["held_out"])
     for found, said in ((before, told["rmse"]["before"]), (after, told["rmse"]["after"])):
@@ -68,20 +62,6 @@ def assert_files_hold(folder: Path, tmp_path: Path) -> dict[str, Any]:
         beside = [{"cause": word, "class": kinds.get(word)} for word in cause["indistinguishable_from"]]
         assert cause["rivals"] == beside
     return told
-
-
-def with_units(data: Path, folder: Path, faults: Collection[Mapping[str, Any]]) -> Path:
-    """The dataset with the signs and units that were found; the file itself where there were none."""
-    factors = {fault["run"]: fault for fault in faults if fault["factor"] is not None}
-    if not factors:
-        return data
-    document = yaml.safe_load(data.read_text())
-    for run in document["runs"]:
-        if fault := factors.get(run["name"]):
-            run["channels"] = {fault["channel"]: {"gain": fault["factor"]}}
-    folder.mkdir()
-    (folder / data.name).write_text(yaml.safe_dump({**document, "folder": "../data"}))
-    return folder / data.name
 
 
 def assert_is_in_files(word: str, folder: Path, told: Mapping[str, Any]) -> None:

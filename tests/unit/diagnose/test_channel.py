@@ -158,8 +158,8 @@ def test_what_triage_corrects_stands_in_the_corrected_dataset():
         Fault("b", "unit_of_displacement", "", "", 25.4, "displacement"),
         Fault("c", "unit", "", ""),
     ]
-    found = SimpleNamespace(triage=SimpleNamespace(faults=faults), accused=())
-    assert Findings.corrections.fget(found) == {"a": Correction(gain=1e-3), "b": Correction(displacement_gain=25.4)}
+    found = SimpleNamespace(triage=SimpleNamespace(faults=faults))
+    assert Findings._certain.fget(found) == {"a": Correction(gain=1e-3), "b": Correction(displacement_gain=25.4)}
 
 
 def test_a_difference_of_two_repeats_accuses_one_of_them():

@@ -64,7 +64,18 @@ def test_the_files_say_what_is_told(word, folder_of, tmp_path):
     elif word not in ("delay", "clipping"):  # which other causes may imitate in six short runs
         assert [cause["cause"] for cause in told["causes"]] == [word]
     if told["corrected_dataset"] is None:
-        assert not (out / "dataset.yaml").exists()
+        assert not list(out.glob("dataset*.yaml"))
+
+
+def test_the_error_before_is_that_of_a_file_where_triage_and_diagnosis_correct_runs(tmp_path):
+    """One run is told in mN, another one has a gain: the first is right before, both are after."""
+    gain = CASES["gain"]
+    faulty = {**gain.fault, "a3_p5": lambda force: 1e3 * force}
+    out = diagnosed(dataset(held_out=(HELD_OUT,), repeats=gain.repeats, fault=faulty), tmp_path)
+    told = assert_files_hold(out.parent, tmp_path)
+    assert [fault["run"] for fault in told["faults"]] == ["a3_p5"]
+    assert (told["triaged_dataset"], told["corrected_dataset"]) == ("dataset.triage.yaml", "dataset.yaml")
+    assert told["rmse"]["after"]["train"] < 0.5 * told["rmse"]["before"]["train"]
 
 
 EVERY = [word for word in (*LAWS, *FAULTS) if word != "nothing"]
