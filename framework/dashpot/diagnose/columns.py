@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from dashpot.contract.cause import ChannelFault
 from dashpot.diagnose.bends import bends_of_tables
 from dashpot.diagnose.candidate import Candidate
+from dashpot.diagnose.data_sheet import admitted
 from dashpot.diagnose.inside import Inside
 from dashpot.diagnose.plainest import not_shown
 from dashpot.diagnose.refit import Refitter
@@ -55,8 +56,8 @@ class Columns:
     ``residual`` (kept,) and ``tangents`` (p, kept) are those of the model, ``own`` (t,) the coordinates of the terms'
     numbers and ``base`` (p - t,) those of the base, ``bends`` (b, n) the functions by which its tables may bend,
     ``forces`` what each term adds (n,), ``inner`` the candidates that sit between nodes, ``unseen`` the columns of
-    candidates that these runs cannot show. In front of the columns of
-    the ``layout`` stand those of the base, and of each run the ``doubted`` columns of the ``faults``.
+    candidates that these runs cannot show, ``admitted`` (k, kept) what the data sheets of the channel admit. In front
+    of the columns of the ``layout`` stand those of the base, and of each run the ``doubted`` columns of the ``faults``.
     """
 
     refitter: Refitter
@@ -73,6 +74,7 @@ class Columns:
     candidates: Sequence[Candidate]
     inner: Mapping[str, tuple[NDArray[np.intp], Array]] | None
     unseen: NDArray[np.intp]
+    admitted: Mapping[str, Array]
 
     @property
     def layout(self) -> Layout:
@@ -145,6 +147,7 @@ def linearised(
         candidates=candidates,
         inner=inside.bank(candidates, refitter.jobs, refitter.watch) if inside else None,
         unseen=not_shown(candidates, view, runs),
+        admitted=admitted(refitter.sensors, view, runs, plain),
     )
 
 

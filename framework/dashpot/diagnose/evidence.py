@@ -33,7 +33,14 @@ def has_evidence(refitter: Refitter, scores: Scores, number: int) -> bool:
     term = scores.look.model.terms[number]
     if isinstance(term, Given) or term.kind != "measurement":
         return True
-    return TESTS[term.cause.evidence_of](refitter, scores, number)
+    ordinary = term.cause.evidence_of != "data_sheet" and is_ordinary(refitter, scores.look.model, number)
+    return not ordinary and TESTS[term.cause.evidence_of](refitter, scores, number)
+
+
+def is_ordinary(refitter: Refitter, model: Model, number: int) -> bool:
+    """Whether a fault is no larger than the data sheet of the force channel admits, so that it is no finding."""
+    stated = {word: size for word, size in model.numbers_of(number).items() if word in refitter.sheet}
+    return bool(stated) and all(abs(size) <= refitter.sheet[word] for word, size in stated.items())
 
 
 def is_determined(scores: Scores, number: int) -> bool:

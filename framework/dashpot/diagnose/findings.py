@@ -20,6 +20,7 @@ from dashpot.compare.misfit import Misfit, describe_misfit
 from dashpot.contract.cause import Cause
 from dashpot.data.correction import Correction, corrected_text
 from dashpot.diagnose.channel import Accused
+from dashpot.diagnose.data_sheet import error_admitted
 from dashpot.diagnose.front import FORM_ERROR
 from dashpot.diagnose.leftover import Leftover
 from dashpot.diagnose.named import about_of, standing_of
@@ -274,14 +275,26 @@ class Findings:
         """The RMSE in N on training runs left out in turn, or on all where they cannot be."""
         return max(self._trained, self.left_out or 0.0)
 
+    @cached_property
+    def _admitted(self) -> float:
+        """The RMSE in N that the data sheet of the force channel admits; 0 where there is none."""
+        sheets = {run.name: run.sensors.get("force", {}) for run in self.setting.dataset.runs}
+        return error_admitted(sheets, self.pursuit.look.view, list(self.corrected.values()))
+
+    @property
+    def _predicting(self) -> float:
+        """The RMSE in N on a run that the model predicts as well as it follows others, channel errors admitted."""
+        return float(np.hypot(self._trained, self._admitted))
+
     @property
     def _attainable(self) -> float:
         """The RMSE in N that another model is known to come to on training runs left out in turn.
 
-        A model that is near the noise has to predict them as well as it follows those that it was fitted to; what is
-        farther from it, as well as a general model of the past motion.
+        A model that is near the noise has to predict them as well as it follows those that it was fitted to, but for
+        what the data sheet of the channel admits; what is farther from it, as well as a general model of the past
+        motion.
         """
-        known = self._trained if self._near_floor else self.explainable.left_out
+        known = self._predicting if self._near_floor else self.explainable.left_out
         return np.inf if known is None else max(known, self._floor)
 
     @property
@@ -296,16 +309,16 @@ class Findings:
 
     @property
     def _near_floor(self) -> bool:
-        return self._trained <= NEAR_FLOOR * self._floor
+        return self._trained <= NEAR_FLOOR * max(self._floor, self._admitted)
 
     @property
     def _leaves_noise(self) -> bool:
         """Whether what is left of runs that took no part in the fit is near the noise as well."""
-        return self._unseen <= NEAR_FLOOR * self._floor
+        return self._unseen <= NEAR_FLOOR * max(self._floor, self._admitted)
 
     @property
     def _beyond_noise(self) -> bool:
-        """Whether the error is far more than what repeated runs differ by."""
+        """Whether the error is far more than what repeated runs differ by, or the data sheet admits."""
         return self.setting.floor.source == "repeats" and not self._near_floor
 
     @property
@@ -334,7 +347,7 @@ class Findings:
         theirs, mine = self.explainable.held_out, self.after.held_out
         if theirs is None or mine is None:
             return False
-        return mine > (1.0 + FORM_ERROR) * max(theirs, self._trained, self._floor)
+        return mine > (1.0 + FORM_ERROR) * max(theirs, self._predicting, self._floor)
 
     @property
     def remarks(self) -> list[str]:

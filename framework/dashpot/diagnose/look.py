@@ -68,6 +68,7 @@ class Recorded:
         inside = _inside_of(refitter, self.model)
         columns = linearised(refitter, self.model, self.view, inside, self.candidates, faults)
         shapes = _shapes(self.kinds, self.view, refitter.runs, columns.plain)
+        shapes |= {run: np.concatenate([shapes[run], errors]) for run, errors in columns.admitted.items()}
         noise, rich = recorded_noise(columns, self.gram, self.white, shapes)
         return stated(noise, refitter.sensors, refitter.runs), rich
 
@@ -186,11 +187,19 @@ def _inside_of(refitter: Refitter, model: Model) -> Inside | None:
 
 
 def _left_by(columns: Columns, lines: Sequence[ChannelFault]) -> Noise:
-    """The white noise that a model leaves, beside ``lines`` that each run may have in its force channel."""
+    """The white noise that a model leaves, beside ``lines`` that each run may have in its force channel.
+
+    And beside what the data sheets admit, as far as this is more than all that is left.
+    """
     runs, residual = columns.refitter.runs, columns.residual
     shapes = _shapes(lines, columns.view, runs, columns.plain)
     left = {run.name: _beside_shapes(residual[run.name], shapes[run.name]) for run in runs}
-    return weighed(searched_noise(left, columns.plain, runs), residual, runs)
+    noise = searched_noise(left, columns.plain, runs)
+    if columns.admitted:
+        first = replace(noise, admitted=columns.admitted)
+        left = {run: first.beside_admitted(run, rest) for run, rest in left.items()}
+        noise = replace(searched_noise(left, columns.plain, runs), admitted=columns.admitted)
+    return weighed(noise, residual, runs)
 
 
 def _known_beforehand(free: int, doubted: Sequence[Doubt], runs: int) -> Array:
@@ -215,7 +224,7 @@ def _grams(columns: Columns, noise: Noise, folds: Folds) -> tuple[Array, Array, 
     runs, size = columns.refitter.runs, columns.first + columns.layout.size
 
     def seen(run: ScoredRun) -> list[tuple[int, Array, int]]:
-        found = columns.of(run)
+        found = noise.beside_admitted(run.name, columns.of(run))
         parts = folds.of_run(run.name, found.shape[1])
         doubles = ((fold, found[:, part].astype(float)) for fold, part in parts)
         return [(fold, rows @ rows.T, rows.shape[1]) for fold, rows in doubles]

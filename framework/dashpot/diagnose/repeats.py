@@ -15,7 +15,7 @@ from dashpot.contract.cause import Cause, ChannelFault
 from dashpot.diagnose.look import RESOLUTION, Doubt, Look
 from dashpot.diagnose.odds import Odds
 from dashpot.diagnose.refit import Refitter
-from dashpot.diagnose.whitening import Noise, filtered, independent_share, learn_filter
+from dashpot.diagnose.whitening import Noise, discounted, filtered, independent_share, learn_filter
 from dashpot.fit import alike
 from dashpot.fit.scored import ScoredRun
 
@@ -38,13 +38,15 @@ class Kind:
 class Rows:
     """Residual, tangents (p, n) and shapes by kind (k, n) of every run, whitened or as they are.
 
-    ``smallest`` is the deviation in N of each record below which nothing is believed.
+    ``smallest`` is the deviation in N of each record below which nothing is believed, ``admitted`` (k, n) in N what the
+    data sheets of the channel admit.
     """
 
     residual: Mapping[str, Array]
     tangents: Mapping[str, Array]
     shapes: Mapping[Key, Array]
     smallest: Mapping[str, float]
+    admitted: Mapping[str, Array]
 
 
 def kinds_of(causes: Sequence[type[Cause]], look: Look) -> list[Kind]:
@@ -61,7 +63,7 @@ def rows_of(refitter: Refitter, look: Look, kinds: Sequence[Kind], noise: Noise)
             found = np.atleast_2d(kind.fault.shapes(look.view, run.name))[:, run.first :]
             shapes[run.name, number] = noise.filter(run.name, noise.reduce_shapes(run.name, found))
     smallest = {run.name: RESOLUTION * max(float(np.std(run.force)), 1e-12) for run in refitter.runs}
-    return Rows(residual, tangents, shapes, smallest)
+    return Rows(residual, tangents, shapes, smallest, look.noise.admitted)
 
 
 def doubts(refitter: Refitter, look: Look, kinds: Sequence[Kind], groups: Mapping[str, str]) -> list[Doubt]:
@@ -151,13 +153,16 @@ def _difference(
 ) -> tuple[Array, Array]:
     """The difference (n,) between two repeats over root 2, and the shapes (k, n) of some kinds of faults, others last.
 
-    Whitened by what the shapes leave of the difference: the error of the model cancels in it.
+    Whitened by what the shapes leave of the difference: the error of the model cancels in it. What the data sheet
+    admits is noise of both.
     """
     found = [(rows.shapes[one, kind] + rows.shapes[other, kind]) / 2.0 for kind in kinds]
     shapes = np.concatenate(found if also is None else [*found, also])
     difference = (rows.residual[one] - rows.residual[other]) / np.sqrt(2.0)
-    coefficients = learn_filter(beside(difference, shapes), rows.smallest[one])
-    return filtered(difference, coefficients), filtered(shapes, coefficients)
+    admitted = rows.admitted.get(one, shapes[:0])
+    coefficients = learn_filter(beside(difference, np.concatenate([shapes, admitted])), rows.smallest[one])
+    errors = filtered(admitted, coefficients)
+    return discounted(filtered(difference, coefficients), errors), discounted(filtered(shapes, coefficients), errors)
 
 
 def _numbers(rows: Rows, one: str, other: str) -> Array:

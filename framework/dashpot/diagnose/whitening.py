@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +18,7 @@ from numpy.typing import NDArray
 from dashpot.data.steady import parts_of
 
 Array = NDArray[np.float64]
+Precision = TypeVar("Precision", bound=np.floating[Any])
 
 ORDER = 8
 ROW = 0  # in place of a number of samples: of a row of a table the fundamental is kept
@@ -29,12 +31,14 @@ class Noise:
     """For every run how many samples are averaged, and the prediction-error filter (order + 1,) of the residual.
 
     ``ROW`` stands for a row of a table, of which two values are kept. Filtered noise has variance one. ``filters`` in
-    1/N; ``independent`` is the share of independent samples.
+    1/N; ``independent`` is the share of independent samples. ``admitted`` (k, kept) in N is what errors of the channel
+    within its data sheet add to a run, each at one standard deviation.
     """
 
     steps: Mapping[str, int]
     filters: Mapping[str, Array] = field(default_factory=dict)
     independent: Mapping[str, float] = field(default_factory=dict)
+    admitted: Mapping[str, Array] = field(default_factory=dict)
 
     def kept(self, run: str, samples: int) -> int:
         """How many values are kept of so many samples."""
@@ -60,8 +64,19 @@ class Noise:
         return np.where(gone[..., None], 0.0, reduced)
 
     def filter(self, run: str, reduced: Array) -> Array:
-        """Reduced signals (..., kept) in units of the noise; the first values miss their past and are set to zero."""
-        return filtered(reduced, self.filters[run])
+        """Reduced signals (..., kept) in units of the noise; the first values miss their past and are set to zero.
+
+        What the data sheet of the channel admits is noise as well.
+        """
+        coefficients = self.filters[run]
+        white = filtered(reduced, coefficients)
+        return discounted(white, filtered(self.admitted[run], coefficients)) if run in self.admitted else white
+
+    def beside_admitted(self, run: str, reduced: NDArray[Precision]) -> NDArray[Precision]:
+        """Reduced signals (..., kept) in N, smaller along what the data sheet admits by as much as is noise there."""
+        if run not in self.admitted:
+            return reduced
+        return discounted(reduced, np.sqrt(self.weight(run)) * self.admitted[run])
 
     def whiten(self, run: str, signals: Array) -> Array:
         """Signals (..., n) of a run, reduced and in units of their noise."""
@@ -92,6 +107,18 @@ def filtered(reduced: Array, coefficients: Array) -> Array:
     white = np.convolve(reduced.ravel(), coefficients)[: reduced.size].reshape(reduced.shape)
     white[..., :ORDER] = 0.0
     return np.asarray(white, dtype=np.float64)
+
+
+def discounted(white: NDArray[Precision], admitted: Array) -> NDArray[Precision]:
+    """Signals (..., kept) in units of white noise, made white where errors of known size act beside it.
+
+    The errors add normal deviates times the rows of ``admitted`` (k, kept); along these the noise is larger.
+    """
+    if not admitted.size:
+        return white
+    _, sizes, directions = np.linalg.svd(admitted, full_matrices=False)
+    lost, directions = (1.0 - (1.0 + sizes**2) ** -0.5).astype(white.dtype), directions.astype(white.dtype)
+    return np.asarray(white - (white @ directions.T * lost) @ directions, dtype=white.dtype)
 
 
 def independent_share(rest: Array) -> float:

@@ -211,19 +211,29 @@ def test_at_the_noise_floor_only_a_line_is_no_noise(line, verdict):
 
 
 @pytest.mark.parametrize(
-    ("trained", "left_out", "given"), [(3.9, 3.9, True), (3.9, None, True), (3.9, 4.1, False), (4.1, 3.9, False)]
+    ("trained", "left_out", "admitted", "given"),
+    [
+        (3.9, 3.9, 0.0, True),
+        (3.9, None, 0.0, True),
+        (3.9, 4.1, 0.0, False),
+        (4.1, 3.9, 0.0, False),
+        (4.1, 5.9, 3.0, True),
+        (4.1, 6.1, 3.0, False),
+    ],
 )
-def test_detection_limits_hold_where_runs_left_out_are_predicted_to_the_noise(monkeypatch, trained, left_out, given):
-    """The noise floor is 2 N; both errors have to be within twice that."""
+def test_detection_limits_hold_where_runs_left_out_are_predicted_to_the_noise(
+    monkeypatch, trained, left_out, admitted, given
+):
+    """The noise floor is 2 N; both errors have to be within twice that, or what the data sheet admits."""
     asked = []
     monkeypatch.setattr("dashpot.diagnose.diagnosis.find_limits", lambda *told: asked.append(told) or [])
-    known = {"_trained": trained, "left_out": left_out, "_floor": 2.0, "relevance": 0.0}
+    known = {"_trained": trained, "left_out": left_out, "_floor": 2.0, "_admitted": admitted, "relevance": 0.0}
     made = type("Made", (Diagnosis,), {**known, "pursuit": SimpleNamespace(look=None)})
     assert object.__new__(made).limits() == [] and bool(asked) is given
 
 
 @pytest.mark.parametrize(
-    ("mine", "theirs", "trained", "floor", "fails"),
+    ("mine", "theirs", "predicting", "floor", "fails"),
     [
         (12.0, 6.0, 2.0, 2.5, True),
         (6.5, 6.0, 2.0, 2.5, False),
@@ -233,14 +243,18 @@ def test_detection_limits_hold_where_runs_left_out_are_predicted_to_the_noise(mo
         (None, None, 2.0, None, False),
     ],
 )
-def test_what_a_general_model_predicts_far_better_is_not_explained(mine, theirs, trained, floor, fails):
+def test_what_a_general_model_predicts_far_better_is_not_explained(mine, theirs, predicting, floor, fails):
     found = SimpleNamespace(
         after=SimpleNamespace(held_out=mine),
         explainable=SimpleNamespace(held_out=theirs),
         _floor=floor or 0.0,
-        _trained=trained,
+        _predicting=predicting,
     )
     assert Diagnosis.fails_held_out.fget(found) is fails
+
+
+def test_channel_errors_of_another_run_add_to_what_the_model_leaves():
+    assert Diagnosis._predicting.fget(SimpleNamespace(_trained=3.0, _admitted=4.0)) == 5.0
 
 
 @pytest.mark.parametrize(
