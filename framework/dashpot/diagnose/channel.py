@@ -44,12 +44,14 @@ from dashpot.diagnose.whitening import independent_share
 
 Array = NDArray[np.float64]
 
+Told = tuple[Array, Array]  # strengths and their standard errors (k,)
+
 NEIGHBOURS = "repeats|other runs under the same conditions do not have it"
 
 
 @dataclass(frozen=True, eq=False)
 class Accused:
-    """A fault of one run: its ``strengths``, the nats that it explains, and its evidence.
+    """A fault of one run: its ``strengths``, their standard ``errors``, the nats that it explains, and its evidence.
 
     ``explained`` is the share by which the square of the residual of all runs grows without it, each run in units of
     what is left of it beside the fault.
@@ -58,6 +60,7 @@ class Accused:
     run: str
     kind: Kind
     strengths: Array
+    errors: Array
     nats: float
     explained: float
     evidence_of: str
@@ -76,6 +79,14 @@ class Accused:
     def correction(self) -> Correction:
         """What puts the run right."""
         return self.kind.fault.correct(self.strengths.tolist())
+
+    @property
+    def size(self) -> tuple[float, float]:
+        """The first strength and its standard error; of hum, told by cosine and sine, those of the amplitude."""
+        if not self.correction.hum:
+            return float(self.strengths[0]), float(self.errors[0])
+        amplitude = float(np.hypot(*self.strengths[:2]))
+        return amplitude, float(np.hypot(*(self.strengths[:2] * self.errors[:2]))) / amplitude
 
 
 def overdispersion(nats: Sequence[float], columns: int) -> float:
@@ -254,9 +265,9 @@ def _overdispersion_of_alike(refitter: Refitter, look: Look, fault: ChannelFault
     return overdispersion(nats, len(rows.shapes[key]))
 
 
-def _by_repeats(rows: Rows, chosen: Mapping[Key, str], pairs: Sequence[Pair]) -> dict[Key, Array]:
+def _by_repeats(rows: Rows, chosen: Mapping[Key, str], pairs: Sequence[Pair]) -> dict[Key, Told]:
     """The strengths of faults that sound repeats show: what the model leaves of both runs is no part of them."""
-    accused, found = {run for run, _ in chosen}, dict[Key, Array]()
+    accused, found = {run for run, _ in chosen}, dict[Key, Told]()
     for run in accused:
         keys = [key for key, words in chosen.items() if key[0] == run and words.startswith("repeats")]
         sound = [name for pair in pairs if run in pair for name in pair if name not in accused]
@@ -266,9 +277,10 @@ def _by_repeats(rows: Rows, chosen: Mapping[Key, str], pairs: Sequence[Pair]) ->
 
 
 def _accused(
-    solver: FaultsBeside, chosen: Mapping[Key, str], kinds: Sequence[Kind], known: dict[Key, Array]
+    solver: FaultsBeside, chosen: Mapping[Key, str], kinds: Sequence[Kind], by_repeats: dict[Key, Told]
 ) -> list[Accused]:
-    strengths = solver.strengths(list(chosen)) | known
+    sizes = {key: (size, solver.errors(key, chosen)) for key, size in solver.strengths(list(chosen)).items()}
+    sizes |= by_repeats
     found = []
     for key, words in chosen.items():
         rest = {other: "" for other in chosen if other != key}
@@ -276,7 +288,7 @@ def _accused(
         growth = max(solver.square_of(key[0], rest) / solver.square_of(key[0], chosen) - 1.0, 0.0)
         explained = growth * solver.rows.residual[key[0]].size / solver.samples
         nats = solver.gain(key, rest)
-        found.append(Accused(key[0], kinds[key[1]], strengths[key], nats, explained, evidence, told))
+        found.append(Accused(key[0], kinds[key[1]], *sizes[key], nats, explained, evidence, told))
     return found
 
 

@@ -8,6 +8,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
+from dashpot.diagnose.jackknife import standard_errors
 from dashpot.diagnose.repeats import Key, Rows
 
 Array = NDArray[np.float64]
@@ -52,12 +53,22 @@ class FaultsBeside:
 
     def square_of(self, run: str, keys: Iterable[Key]) -> float:
         """The square of what the model and faults, found together, leave of the residual of a run."""
-        known = _blocks(keys)
-        rest = self.rows.residual[run] - self._base(known)[1][: self._fixed] @ self.rows.tangents[run]
+        rest = self._beside(run, keys)
         for key, strengths in self.strengths(keys).items():
             if key[0] == run:
                 rest = rest - strengths @ self.rows.shapes[key]
         return max(float(rest @ rest), 1e-300)
+
+    def errors(self, key: Key, keys: Iterable[Key]) -> Array:
+        """The standard errors (k,) of the strengths of a fault that was found together with others."""
+        mine = [key, *(other for other in keys if other[0] == key[0] and other != key)]
+        shapes = np.concatenate([self.rows.shapes[one] for one in mine])
+        found = standard_errors(self._beside(key[0], keys), shapes, self.rows.pieces[key[0]])
+        return found[: len(self.rows.shapes[key])]
+
+    def _beside(self, run: str, keys: Iterable[Key]) -> Array:
+        """What the model, found together with faults, leaves of the residual of a run with its faults."""
+        return self.rows.residual[run] - self._base(_blocks(keys))[1][: self._fixed] @ self.rows.tangents[run]
 
     def strengths(self, keys: Iterable[Key]) -> dict[Key, Array]:
         """The strengths of faults found together."""

@@ -12,6 +12,7 @@ from dashpot.contract.cause import Cause
 from dashpot.diagnose.channel import Accused
 from dashpot.diagnose.evidence import DECADES
 from dashpot.diagnose.gain import Gain
+from dashpot.diagnose.jackknife import PIECES, interval_of
 from dashpot.diagnose.pursuit import NAMED
 from dashpot.diagnose.term import Model, Term
 from dashpot.model.network import NetworkSpec, Value
@@ -127,13 +128,13 @@ class NamedCause:
         """The numbers as they stand in result files: by their own name in the first branch, by path in further ones."""
         found: dict[str, Any] = {}
         for one in self.accused:
-            hum = one.correction.hum
-            size = float(np.hypot(hum[1], hum[2])) if hum else float(one.strengths[0])
+            size, error = one.size
+            interval = interval_of(size, error, PIECES)
             found[f"{one.kind.fault.quantity} of {one.run}"] = {
                 "value": size,
                 "unit": one.kind.fault.unit,
-                "interval": None,
-                "determined": None,
+                "interval": list(interval) if np.isfinite(error) else None,
+                "determined": is_known(interval) if np.isfinite(error) else None,
             }
         slopes = per_run(self.slots)
         for path, value in self.slots.items():

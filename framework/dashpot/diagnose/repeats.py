@@ -12,6 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.contract.cause import Cause, ChannelFault
+from dashpot.diagnose.folds import whole_cycles
+from dashpot.diagnose.jackknife import PIECES, standard_errors
 from dashpot.diagnose.look import RESOLUTION, Doubt, Look
 from dashpot.diagnose.odds import Odds
 from dashpot.diagnose.refit import Refitter
@@ -39,7 +41,7 @@ class Rows:
     """Residual, tangents (p, n) and shapes by kind (k, n) of every run, whitened or as they are.
 
     ``smallest`` is the deviation in N of each record below which nothing is believed, ``admitted`` (k, n) in N what the
-    data sheets of the channel admit.
+    data sheets of the channel admit, ``pieces`` where each record may be cut into whole cycles.
     """
 
     residual: Mapping[str, Array]
@@ -47,6 +49,7 @@ class Rows:
     shapes: Mapping[Key, Array]
     smallest: Mapping[str, float]
     admitted: Mapping[str, Array]
+    pieces: Mapping[str, Sequence[int]]
 
 
 def kinds_of(causes: Sequence[type[Cause]], look: Look) -> list[Kind]:
@@ -63,7 +66,14 @@ def rows_of(refitter: Refitter, look: Look, kinds: Sequence[Kind], noise: Noise)
             found = np.atleast_2d(kind.fault.shapes(look.view, run.name))[:, run.first :]
             shapes[run.name, number] = noise.filter(run.name, noise.reduce_shapes(run.name, found))
     smallest = {run.name: RESOLUTION * max(float(np.std(run.force)), 1e-12) for run in refitter.runs}
-    return Rows(residual, tangents, shapes, smallest, look.noise.admitted)
+    pieces = {run.name: _pieces_of(run, residual[run.name].size) for run in refitter.runs}
+    return Rows(residual, tangents, shapes, smallest, look.noise.admitted, pieces)
+
+
+def _pieces_of(run: ScoredRun, kept: int) -> list[int]:
+    """Where the reduced record of a run, so many values, may be cut into whole cycles."""
+    edges = whole_cycles(run.drive.displacement[run.first :], PIECES)
+    return [round(edge * kept / edges[-1]) for edge in edges]
 
 
 def doubts(refitter: Refitter, look: Look, kinds: Sequence[Kind], groups: Mapping[str, str]) -> list[Doubt]:
@@ -141,11 +151,19 @@ def outlier(rows: Rows, pair: Pair, pairs: Sequence[Pair], kind: int) -> float:
     return 0.5 * len(rows.shapes[pair[0], kind]) * len(pairs) * float(np.log1p(squares[pair] / scatter))
 
 
-def strengths_by_repeats(rows: Rows, run: str, others: Sequence[str], kinds: Sequence[int]) -> list[Array]:
-    """The strengths (k,) of faults of a run, together, by which it differs from sound repeats: no model takes part."""
+def strengths_by_repeats(
+    rows: Rows, run: str, others: Sequence[str], kinds: Sequence[int]
+) -> list[tuple[Array, Array]]:
+    """The strengths (k,) of faults of a run, together, by which it differs from sound repeats, and their errors (k,).
+
+    No model takes part. Repeats share the run at fault, so that more of them make no error smaller.
+    """
     sizes = [len(rows.shapes[run, kind]) for kind in kinds]
-    each = [np.sqrt(2.0) * strengths_of(*_difference(rows, run, other, kinds)) for other in others]
-    return np.split(np.mean(each, axis=0), np.cumsum(sizes)[:-1])
+    each = [_difference(rows, run, other, kinds) for other in others]
+    strengths = np.sqrt(2.0) * np.mean([strengths_of(*one) for one in each], axis=0)
+    errors = np.sqrt(2.0 * np.mean([standard_errors(*one, rows.pieces[run]) ** 2 for one in each], axis=0))
+    ends = np.cumsum(sizes)[:-1]
+    return list(zip(np.split(strengths, ends), np.split(errors, ends), strict=True))
 
 
 def _difference(

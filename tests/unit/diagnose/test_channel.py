@@ -28,6 +28,7 @@ from dashpot.diagnose.channel import accuse, conditions, covers, evidence_in
 from dashpot.diagnose.diagnose import diagnose
 from dashpot.diagnose.findings import Findings
 from dashpot.diagnose.folds import folds_of
+from dashpot.diagnose.jackknife import PIECES, interval_of
 from dashpot.diagnose.leftover import Leftover
 from dashpot.diagnose.look import look_at
 from dashpot.diagnose.repeats import begun_together, doubts, kinds_of, repeats_of
@@ -69,6 +70,8 @@ def test_a_repeat_that_differs_is_accused_with_its_size(word):
     one = found["again", word]
     assert one.evidence_of == "repeats" and "'a3_p8'" in one.words
     assert one.strengths[0] == pytest.approx(size, rel=0.15)
+    low, high = interval_of(*one.size, PIECES)
+    assert low < size < high < low + 0.5 * size
     sound, wrong = plain(MOTIONS["a3_p8"]), fault(plain(MOTIONS["a3_p8"]))
     assert np.std(one.correction.apply(wrong, 2e-3) - sound) < 0.15 * np.std(wrong - sound) + 0.5
 
