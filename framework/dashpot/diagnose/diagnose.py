@@ -18,7 +18,7 @@ from dashpot.diagnose.diagnosis import Diagnosis
 from dashpot.diagnose.findings import Removal
 from dashpot.diagnose.folds import FEWEST
 from dashpot.diagnose.leftover import look_for_leftover
-from dashpot.diagnose.look import Look, look_at
+from dashpot.diagnose.look import Look, give_back_memory, look_at
 from dashpot.diagnose.next_run import NextRun, next_run
 from dashpot.diagnose.polish import FEWER_STEPS, STEPS, known, polished
 from dashpot.diagnose.pursue import Pursuer
@@ -88,6 +88,7 @@ def diagnose(
     refitter = Refitter(begun_together(searched, groups), registry.elements, sensors, jobs, noise=noise)
     watch = partial(_watch, progress, spec.name)
     pursuit, accused = find_causes(refitter, fit, causes, groups, setting, relevance, seed, watch)
+    give_back_memory()
     sound = {one.name: corrected(one, accused) for one in setting.train}
     runs = list(sound.values())
     if accused:

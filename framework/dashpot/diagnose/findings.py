@@ -23,6 +23,7 @@ from dashpot.diagnose.channel import Accused
 from dashpot.diagnose.data_sheet import error_admitted
 from dashpot.diagnose.front import FORM_ERROR
 from dashpot.diagnose.leftover import Leftover
+from dashpot.diagnose.look import give_back_memory
 from dashpot.diagnose.named import about_of, standing_of
 from dashpot.diagnose.next_run import NextRun
 from dashpot.diagnose.polish import left_out_error
@@ -335,7 +336,9 @@ class Findings:
         Trees are grown only where the model is far from what repeats differ by.
         """
         far = self._trained > NEAR_FLOOR * (self.setting.floor.value or 0.0)
-        return explainable_error(self.after_setting, self.seed, far)
+        found = explainable_error(self.after_setting, self.seed, far)
+        give_back_memory()  # of the trees
+        return found
 
     @property
     def fails_held_out(self) -> bool:

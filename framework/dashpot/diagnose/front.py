@@ -152,27 +152,33 @@ class Front:
 
 
 def front_of(
-    grams: Array, known: Array, free: int, layout: Layout, model: Model, candidates: Sequence[Candidate]
+    grams: list[Array],
+    whole: Array,
+    known: Array,
+    free: int,
+    layout: Layout,
+    model: Model,
+    candidates: Sequence[Candidate],
 ) -> Front:
-    """From Gram matrices (groups, f + c, f + c) behind ``free`` columns of the base and ``known`` (f - free,) ones.
+    """From Gram matrices (f + c, f + c) of groups behind ``free`` columns of the base and ``known`` (f - free,) ones.
 
+    ``whole`` is their sum. They are large, and taken out of the list one after the other.
     The residual is that of the base as it is, unless faults of each run are ``known``, to which no fit has adapted it.
     """
     first = free + known.size
-    whole = grams.sum(axis=0)
     moves, squares = in_front(whole, np.zeros(free)), np.diag(whole).copy()
     squares[free:] -= np.sum(whole[:free, free:] * moves, axis=0)
     squares[squares < RIDGE * np.diag(whole)] = 0.0  # what the base makes up for has no error of a form
     errors, precision, owners = form_errors(squares, first, layout, model, candidates)
-    order = np.array([*range(first), *errors, *range(first, grams.shape[1])], dtype=np.intp)
+    order = np.array([*range(first), *errors, *range(first, len(whole))], dtype=np.intp)
     owned = np.array([*[-1] * known.size, *owners], dtype=np.intp)  # faults are of no term
     at = np.ix_(order, order)
     total = whole[at]
     moves = moves[:, order[free:] - free]
     moves[:, first - free + len(errors)] *= known.size > 0
     left = np.empty((len(grams), *(size - free for size in total.shape)), np.float32)
-    for number, gram in enumerate(grams):
-        left[number] = beside(gram[at], moves)
+    for number in range(len(grams)):
+        left[number] = beside(grams.pop(0)[at], moves)
     return Front(left, beside(total, moves), moves, np.append(known, precision), owned, layout.tangents)
 
 

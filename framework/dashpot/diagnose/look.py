@@ -6,7 +6,9 @@ is worth, and what a structure predicts of runs that took no part in its fit.
 
 from __future__ import annotations
 
+import ctypes
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -124,6 +126,8 @@ def look_at(
     run may have the ``doubted`` faults, as large as repeats differ. In place of all candidates of the causes some may
     be ``known``.
     """
+    if known is None:
+        give_back_memory()  # of the look before
     runs, view = refitter.runs, view_of(model.fitted, moved(refitter.runs), refitter.elements, refitter.jobs)
     inside = _inside_of(refitter, model)
     if known is None:
@@ -137,13 +141,13 @@ def look_at(
     kinds = [fault for cause in causes for fault in cause().channel_faults(view)] if learnt else []
     noise = noise or _left_by(columns, [fault for fault in kinds if fault.evidence_of == "at_rest"])
     grams, samples, squares = _grams(columns, noise, folds)
-    whole = grams.sum(axis=0)
+    whole: Array = sum(grams[1:], start=grams[0])
     terms = 1 + layout.tangents
-    plainly = grams[:, : first + terms, : first + terms]
+    plainly = [gram[: first + terms, : first + terms].copy() for gram in grams]
     moves = in_front(whole[: first + terms, : first + terms], precision)
     moves[:, 0] *= bool(doubted)  # the residual is that of the parameters as they are
     exact = np.array([beside(gram, moves) for gram in plainly])
-    front = front_of(grams, precision[free:], free, layout, model, candidates)
+    front = front_of(grams, whole, precision[free:], free, layout, model, candidates)
     return Look(
         model=model,
         noise=noise,
@@ -181,6 +185,12 @@ def look_settled(
     return look_at(refitter, settled, causes, folds, doubted=doubted, known=known)
 
 
+def give_back_memory() -> None:
+    """Give memory that is free back to the system: the C library of Linux keeps most of what a look has used."""
+    with suppress(OSError, AttributeError, TypeError):  # another C library
+        ctypes.CDLL(None).malloc_trim(0)
+
+
 def _inside_of(refitter: Refitter, model: Model) -> Inside | None:
     """The inside of a network with nodes."""
     return Inside(model.fitted, refitter.runs, refitter.elements) if model.fitted.joints else None
@@ -215,9 +225,9 @@ def _shapes(
     return {run.name: shapes_of(faults, view, run, noise) for run in runs}
 
 
-def _grams(columns: Columns, noise: Noise, folds: Folds) -> tuple[Array, Array, Array]:
-    """Gram matrices (folds, c, c) of columns under white ``noise``, the number (folds,) of their samples, and the mean
-    squares (c,) of the columns in N^2.
+def _grams(columns: Columns, noise: Noise, folds: Folds) -> tuple[list[Array], Array, Array]:
+    """The Gram matrix (c, c) of columns under white ``noise`` for each fold, the number (folds,) of their samples, and
+    the mean squares (c,) of the columns in N^2.
 
     Samples that are not independent weigh less in both. The rows of a run are made when its turn has come.
     """
@@ -229,7 +239,8 @@ def _grams(columns: Columns, noise: Noise, folds: Folds) -> tuple[Array, Array, 
         doubles = ((fold, found[:, part].astype(float)) for fold, part in parts)
         return [(fold, rows @ rows.T, rows.shape[1]) for fold, rows in doubles]
 
-    grams, samples, squares = np.zeros((len(folds.names), size, size)), np.zeros(len(folds.names)), np.zeros(size)
+    grams = [np.zeros((size, size)) for _ in folds.names]
+    samples, squares = np.zeros(len(folds.names)), np.zeros(size)
     for run, found in zip(runs, streamed(seen, runs, columns.refitter.jobs), strict=True):
         share, precision = noise.independent.get(run.name, 1.0), noise.filters[run.name][0] ** 2
         count = sum(kept for _, _, kept in found)

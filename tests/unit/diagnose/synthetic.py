@@ -31,13 +31,13 @@ def candidates_of(words: Sequence[str], places: int, kind: str = "specimen", **s
 
 def look_of(rows: Mapping[str, np.ndarray], candidates: Sequence[Candidate]) -> Look:
     """A look at a model without numbers; ``rows`` (1 + bank, n) by group hold the residual, then the bank."""
-    grams = np.array([each @ each.T for each in rows.values()])
-    bank = grams.shape[1] - 1
+    grams = [each @ each.T for each in rows.values()]
+    bank, exact = len(grams[0]) - 1, np.array([gram[:1, :1] for gram in grams])
     base = SimpleNamespace(slots=lambda: ())
     model = SimpleNamespace(terms=(), base=base, coordinates=SimpleNamespace(paths=()), owned=(), point=np.zeros(0))
     samples = np.array([float(each.shape[1]) for each in rows.values()])
     nothing, folds = np.zeros(0, dtype=int), Folds(tuple(rows), len(rows), {})
-    front = front_of(grams, np.zeros(0), 0, Layout(0, 0, bank), model, candidates)
+    front = front_of(grams, sum(grams), np.zeros(0), 0, Layout(0, 0, bank), model, candidates)
     return Look(
         model,
         None,
@@ -45,7 +45,7 @@ def look_of(rows: Mapping[str, np.ndarray], candidates: Sequence[Candidate]) -> 
         tuple(candidates),
         Layout(0, 0, bank),
         front,
-        grams[:, :1, :1],
+        exact,
         samples,
         folds,
         np.ones(1 + bank),

@@ -29,6 +29,12 @@ def test_what_is_known_beside_structures_keeps_to_its_room_and_comes_out_the_sam
     assert len(much._known) == 5
 
 
+def grams_of(rows):
+    """The Gram matrices of groups, and their sum."""
+    grams = [each @ each.T for each in rows]
+    return grams, sum(grams)
+
+
 def test_a_form_may_err_by_a_share_of_what_the_term_adds_to_the_base():
     """As much as before where the force of the term, and of its other forms, holds any amount of the base as well."""
     base, term, forms = 2, 3, slice(4, 6)  # the residual stands between base and term
@@ -37,12 +43,11 @@ def test_a_form_may_err_by_a_share_of_what_the_term_adds_to_the_base():
     candidates = candidates_of(["word"], 2)
     model = SimpleNamespace(terms=[SimpleNamespace(name=candidates[0].name, changes={""})])
     made, same = (
-        front_of(each @ each.transpose(0, 2, 1), np.zeros(0), base, Layout(0, 1, 2), model, candidates)
-        for each in (rows, also)
+        front_of(*grams_of(each), np.zeros(0), base, Layout(0, 1, 2), model, candidates) for each in (rows, also)
     )
     assert same.precision == pytest.approx(made.precision, rel=1e-9)
     also[:, forms.start] = 7.0 * rows[:, 0]  # the base alone: rounding is no form
-    alone = front_of(also @ also.transpose(0, 2, 1), np.zeros(0), base, Layout(0, 1, 2), model, candidates)
+    alone = front_of(*grams_of(also), np.zeros(0), base, Layout(0, 1, 2), model, candidates)
     assert alone.precision == pytest.approx(made.precision[1:] / 2.0, rel=1e-9)
     flat = np.concatenate(rows, axis=1)
     left = flat - flat @ np.linalg.pinv(flat[:base]) @ flat[:base]

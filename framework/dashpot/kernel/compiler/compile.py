@@ -29,7 +29,8 @@ from dashpot.model.element import Element
 from dashpot.model.network import Branch, NetworkSpec
 from dashpot.model.topology import Topology, topology_of
 
-KEPT = 512
+KEPT = 512  # programs
+RECIPES = 64  # of constants: a search goes through many networks, and a recipe is larger than its program
 
 Passes = Mapping[str, Mapping[str, Node]]
 
@@ -80,7 +81,7 @@ def online_of(spec: NetworkSpec) -> Online:
     )
 
 
-@lru_cache(KEPT)
+@lru_cache(RECIPES)
 def recipe_of(program: Program) -> Recipe:
     """How the constants of a program come from the parameters of a lane."""
     return Recipe(program.constants)
