@@ -10,7 +10,6 @@ from numpy.typing import NDArray
 
 from dashpot.contract.cause import Atom, Suspect, View, branch_lines, free_name
 from dashpot.data.drive import drive_from_path
-from dashpot.kernel.network import compile_network
 from dashpot.model.network import Branch, Characteristic, Group, NetworkSpec
 from dashpot.model.patch import add_branch
 from dashpot.text.quantity import pretty
@@ -54,6 +53,8 @@ class _Spring:
     def columns(self, view: View, run: str) -> Array:
         """The forces (m, n) that are left of the rises of the curve, straight from sample to sample."""
         from scipy.signal import lfilter
+
+        from dashpot.kernel.network import compile_network
 
         alone = compile_network(NetworkSpec("alone", Group("", "parallel", (self.branch,))))
         x, v, dt = view.displacement(run), view.velocity(run), view.step(run)

@@ -5,9 +5,12 @@ from __future__ import annotations
 import inspect
 from collections.abc import Iterator
 from html import escape
+from typing import TYPE_CHECKING
 
-from dashpot.kernel.export import Exported
 from dashpot.model.network import Branch, Group, NetworkSpec
+
+if TYPE_CHECKING:
+    from dashpot.kernel.export import Exported
 
 SIGNS = (
     "In the laws x is the deflection of a branch in m, compression positive, v its rate in m/s, a the rate of v, and F "

@@ -22,7 +22,6 @@ from dashpot.data.resample import advance, trim
 from dashpot.data.run import Run
 from dashpot.data.run_entries import list_runs, with_entry, with_head
 from dashpot.data.source import Source
-from dashpot.data.writing import dataset_files
 from dashpot.text.document import Document
 from dashpot.text.inserting import plain_or_quoted
 from dashpot.text.problem import InputError, Place, nearest
@@ -101,7 +100,7 @@ def corrected_text(
     be written in place.
     """
     if dataset.document is None or dataset.folder is None:
-        hint = "write it into files first, as `corrected_files` does"
+        hint = "write it into files first, as `write_dataset` does"
         raise InputError.at(Place(), f"the dataset '{dataset.name}' was made in memory: it has no file", hint)
     text = list_runs(dataset.document, dataset.name, dataset.file)
     text = with_head(text, "folder", _path_from(folder, dataset.folder))
@@ -124,20 +123,6 @@ def corrected_text(
         text = with_entry(text, order, ("set_aside",), plain_or_quoted(reason))
     _check(before, _describe(text, dataset), wanted, set_aside, dataset)
     return text
-
-
-def corrected_files(
-    dataset: Dataset, corrections: Mapping[str, Correction], set_aside: Mapping[str, str], folder: Path
-) -> dict[str, str]:
-    """What has to be written into `folder`, by file name: `dataset.yaml` as in `corrected_text`.
-
-    Before it stand the runs as they were measured where the dataset was made in memory.
-    """
-    if dataset.document is not None:
-        return {"dataset.yaml": corrected_text(dataset, corrections, set_aside, folder)}
-    files = dataset_files(dataset.name, dataset.runs)
-    written = replace(dataset, folder=folder, document=Document.parse(files["dataset.yaml"]))
-    return {**files, "dataset.yaml": corrected_text(written, corrections, set_aside, folder)}
 
 
 def _path_from(folder: Path, measured: Path) -> str:

@@ -8,9 +8,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from dashpot.contract.registry import load_registry
+from dashpot.data.correction import corrected_run
 from dashpot.diagnose.diagnosis import Diagnosis as PlainDiagnosis
+from dashpot.diagnose.single_runs import correction_of
 from dashpot.model.reading import parse_network
 from dashpot.notebook.cell import cell
+from dashpot.notebook.data import Data
 from dashpot.notebook.listing import Listing
 from dashpot.notebook.model import Model
 from dashpot.notebook.plots import PLOTS, interactive, plot
@@ -40,6 +43,8 @@ class Diagnosis(Printed, PlainDiagnosis):
         ['relaxation']
         >>> [branch.element.word for branch in diagnosis.extended.leaves()][-1]
         'maxwell'
+        >>> diagnosis.corrected_data.runs[0].name
+        'a0p5_p2_up'
     """
 
     @property
@@ -78,6 +83,17 @@ class Diagnosis(Printed, PlainDiagnosis):
         own = {branch.element.word: branch.element for branch in self.final.leaves()}
         elements = {**load_registry().elements, **own}
         return promoted(Model, parse_network(self.extended_text, elements, self.model.file))
+
+    @cached_property
+    def corrected_data(self) -> Data:
+        """The measured runs as the corrected dataset has them: faults of runs put right, without runs set aside.
+
+        ``fit``, ``compare`` and ``write_dataset`` take them. Runs in memory have no other corrected dataset.
+        """
+        dataset = self.setting.dataset
+        found = {run.name: correction_of(run.name, self.accused) for run in dataset.runs}
+        runs = (corrected_run(run, by) if (by := found[run.name]) else run for run in dataset.runs)
+        return Data(dataset.name, tuple(runs))
 
     def report(self, path: str | Path) -> Path:
         """Write the report, one HTML file that needs nothing else; the path."""

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from dashpot.data.correction import Correction, corrected_files, corrected_run, corrected_text
+from dashpot.data.correction import Correction, corrected_run, corrected_text
 from dashpot.data.dataset import Dataset, read_dataset
 from dashpot.data.ends import one_force_each
 from dashpot.text.problem import InputError
@@ -298,18 +298,6 @@ def test_what_cannot_be_corrected_is_told(tmp_path):
         corrected_text(dataset, {"a@left": Correction(offset=1.0)}, {}, tmp_path)
     with pytest.raises(InputError, match="was made in memory"):
         corrected_text(Dataset("memory", dataset.runs), {}, {}, tmp_path)
-
-
-@pytest.mark.parametrize("correction", CORRECTIONS)
-def test_a_dataset_that_was_made_in_memory_is_written_with_its_corrections(tmp_path, correction):
-    measured = prepare(tmp_path / "m")
-    files = corrected_files(Dataset("memory", measured.runs), {"b": correction}, {"c": "it slipped"}, tmp_path)
-    for name, text in files.items():
-        (tmp_path / name).write_text(text, encoding="utf-8")
-    again = read_dataset(tmp_path, READERS)
-    expected = corrected_run(measured.run("b"), correction).force
-    assert [run.name for run in again.runs] == ["a", "b"] and again.name == "memory"
-    assert np.abs(again.run("b").force - expected).max() <= 1e-12 * np.abs(expected).max()
 
 
 def test_a_channel_that_would_mix_with_the_defaults_is_refused(tmp_path):
