@@ -135,10 +135,12 @@ def checked(diagnosis: Diagnosis, folder: OutputFolder, registry: Registry) -> s
     """The written files read again and simulated: what was told beside what they say. InputError where they differ."""
     before, after = diagnosis.fitted_name, diagnosis.extended_name or diagnosis.fitted_name
     setting = _read_again(diagnosis.setting, diagnosis.triaged_name, diagnosis.seed, folder, registry)
-    _held(diagnosis.before, _measured_again(before, setting, diagnosis.jobs, folder, registry), folder.path / before)
+    _refuse_other_errors(
+        diagnosis.before, _measured_again(before, setting, diagnosis.jobs, folder, registry), folder.path / before
+    )
     setting = _read_again(diagnosis.after_setting, diagnosis.corrected_name, diagnosis.seed, folder, registry)
     found = _measured_again(after, setting, diagnosis.jobs, folder, registry)
-    _held(diagnosis.after, found, folder.path / after)
+    _refuse_other_errors(diagnosis.after, found, folder.path / after)
     runs = f"{found.train:.4g} N on training runs"
     runs += "" if found.held_out is None else f", {found.held_out:.4g} N on held-out runs"
     return f"check: {after} read again and simulated has the reported RMSE: {runs}"
@@ -164,7 +166,7 @@ def _measured_again(name: str, setting: Setting, jobs: int, folder: OutputFolder
     return measure_errors(read_network(str(folder.path / name), registry.elements), setting, jobs)
 
 
-def _held(told: Errors, found: Errors, network: Path) -> None:
+def _refuse_other_errors(told: Errors, found: Errors, network: Path) -> None:
     """InputError where the errors that a written network was found to have are not those that were told."""
     from dashpot.text.problem import InputError, Place
 

@@ -44,14 +44,14 @@ from dashpot.diagnose.whitening import independent_share
 
 Array = NDArray[np.float64]
 
-Told = tuple[Array, Array]  # strengths and their standard errors (k,)
+Estimate = tuple[Array, Array]  # strengths and half of their 95 % intervals (k,)
 
 NEIGHBOURS = "repeats|other runs under the same conditions do not have it"
 
 
 @dataclass(frozen=True, eq=False)
 class Accused:
-    """A fault of one run: its ``strengths``, their standard ``errors``, the nats that it explains, and its evidence.
+    """A fault of one run: its ``strengths``, half of their 95 % intervals (``widths``), the nats, and the evidence.
 
     ``explained`` is the share by which the square of the residual of all runs grows without it, each run in units of
     what is left of it beside the fault.
@@ -60,7 +60,7 @@ class Accused:
     run: str
     kind: Kind
     strengths: Array
-    errors: Array
+    widths: Array
     nats: float
     explained: float
     evidence_of: str
@@ -81,12 +81,17 @@ class Accused:
         return self.kind.fault.correct(self.strengths.tolist())
 
     @property
-    def size(self) -> tuple[float, float]:
-        """The first strength and its standard error; of hum, told by cosine and sine, those of the amplitude."""
-        if not self.correction.hum:
-            return float(self.strengths[0]), float(self.errors[0])
-        amplitude = float(np.hypot(*self.strengths[:2]))
-        return amplitude, float(np.hypot(*(self.strengths[:2] * self.errors[:2]))) / amplitude
+    def size(self) -> float:
+        """The first strength; of hum, told by cosine and sine, the amplitude."""
+        return float(np.hypot(*self.strengths[:2])) if self.correction.hum else float(self.strengths[0])
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """The 95 % interval of the size; infinite where the run has one piece of whole cycles only."""
+        half = float(self.widths[0])
+        if self.correction.hum:
+            half = float(np.hypot(*(self.strengths[:2] * self.widths[:2]))) / self.size
+        return self.size - half, self.size + half
 
 
 def overdispersion(nats: Sequence[float], columns: int) -> float:
@@ -265,9 +270,9 @@ def _overdispersion_of_alike(refitter: Refitter, look: Look, fault: ChannelFault
     return overdispersion(nats, len(rows.shapes[key]))
 
 
-def _by_repeats(rows: Rows, chosen: Mapping[Key, str], pairs: Sequence[Pair]) -> dict[Key, Told]:
+def _by_repeats(rows: Rows, chosen: Mapping[Key, str], pairs: Sequence[Pair]) -> dict[Key, Estimate]:
     """The strengths of faults that sound repeats show: what the model leaves of both runs is no part of them."""
-    accused, found = {run for run, _ in chosen}, dict[Key, Told]()
+    accused, found = {run for run, _ in chosen}, dict[Key, Estimate]()
     for run in accused:
         keys = [key for key, words in chosen.items() if key[0] == run and words.startswith("repeats")]
         sound = [name for pair in pairs if run in pair for name in pair if name not in accused]
@@ -277,9 +282,9 @@ def _by_repeats(rows: Rows, chosen: Mapping[Key, str], pairs: Sequence[Pair]) ->
 
 
 def _accused(
-    solver: FaultsBeside, chosen: Mapping[Key, str], kinds: Sequence[Kind], by_repeats: dict[Key, Told]
+    solver: FaultsBeside, chosen: Mapping[Key, str], kinds: Sequence[Kind], by_repeats: dict[Key, Estimate]
 ) -> list[Accused]:
-    sizes = {key: (size, solver.errors(key, chosen)) for key, size in solver.strengths(list(chosen)).items()}
+    sizes = {key: (size, solver.half_widths(key, chosen)) for key, size in solver.strengths(list(chosen)).items()}
     sizes |= by_repeats
     found = []
     for key, words in chosen.items():

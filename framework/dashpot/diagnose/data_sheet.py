@@ -25,25 +25,23 @@ SHAPES: Mapping[str, Callable[[Array, float], Array]] = {
     "zero": lambda force, step: np.ones_like(force),
     "delay": lambda force, step: -np.gradient(force, step),
 }
-
-
 Sheets = Mapping[str, Mapping[str, float]]  # deviations in SI by run and quantity
 
 
 def admitted(sheets: Sheets, view: ModelView, runs: Sequence[ScoredRun], noise: Noise) -> dict[str, Array]:
     """What one standard deviation of each error would add to the records that have a data sheet (k, kept) in N."""
-    found = {run.name: _shapes(sheets.get(run.name, {}), view, run) for run in records(runs)}
+    found = {run.name: _shapes(sheets.get(run.name, {}), view, run.name) for run in records(runs)}
     return {run: noise.reduce(run, shapes) for run, shapes in found.items() if len(shapes)}
 
 
 def error_admitted(sheets: Sheets, view: ModelView, runs: Sequence[ScoredRun]) -> float:
-    """The RMSE in N that these errors alone give a model that is right, on all records."""
-    squares = [np.sum(_shapes(sheets.get(run.name, {}), view, run) ** 2, axis=0) for run in records(runs)]
+    """The RMSE in N that these errors alone give a model that is right, on the samples of the records in the view."""
+    squares = [np.sum(_shapes(sheets.get(run.name, {}), view, run.name) ** 2, axis=0) for run in records(runs)]
     return float(np.sqrt(np.mean(np.concatenate(squares)))) if squares else 0.0
 
 
-def _shapes(sheet: Mapping[str, float], view: ModelView, run: ScoredRun) -> Array:
-    """The same of one run (k, samples), not reduced."""
-    force, step = view.force(run.name), view.step(run.name)
+def _shapes(sheet: Mapping[str, float], view: ModelView, name: str) -> Array:
+    """The same of one run (k, samples), as the view has it, not reduced."""
+    force, step, run = view.force(name), view.step(name), view.scored[name]
     shapes = [sheet[word] * shape(force, step)[run.first :] for word, shape in SHAPES.items() if sheet.get(word)]
     return np.array(shapes).reshape(len(shapes), run.samples)

@@ -8,7 +8,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from dashpot.diagnose.jackknife import standard_errors
+from dashpot.diagnose.jackknife import half_widths
 from dashpot.diagnose.repeats import Key, Rows
 
 Array = NDArray[np.float64]
@@ -59,11 +59,11 @@ class FaultsBeside:
                 rest = rest - strengths @ self.rows.shapes[key]
         return max(float(rest @ rest), 1e-300)
 
-    def errors(self, key: Key, keys: Iterable[Key]) -> Array:
-        """The standard errors (k,) of the strengths of a fault that was found together with others."""
+    def half_widths(self, key: Key, keys: Iterable[Key]) -> Array:
+        """Half of the 95 % intervals (k,) of the strengths of a fault that was found together with others."""
         mine = [key, *(other for other in keys if other[0] == key[0] and other != key)]
         shapes = np.concatenate([self.rows.shapes[one] for one in mine])
-        found = standard_errors(self._beside(key[0], keys), shapes, self.rows.pieces[key[0]])
+        found = half_widths(self._beside(key[0], keys), shapes, self.rows.pieces[key[0]])
         return found[: len(self.rows.shapes[key])]
 
     def _beside(self, run: str, keys: Iterable[Key]) -> Array:

@@ -175,14 +175,14 @@ class Findings:
     @property
     def corrections(self) -> dict[str, Correction]:
         """What puts runs right, by run: what triage found, and the faults that runs were accused of."""
-        found = self._certain
+        found = self.triage_corrections
         for one in self.accused:
             known = found.get(one.run)
             found[one.run] = known.then(one.correction) if known else one.correction
         return found
 
     @property
-    def _certain(self) -> dict[str, Correction]:
+    def triage_corrections(self) -> dict[str, Correction]:
         """The signs and units that triage corrects, by run."""
         return {
             fault.run: _multiplied(fault.channel, fault.factor)
@@ -212,13 +212,13 @@ class Findings:
 
         None where triage found nothing, or there is no file.
         """
-        if not (self._certain or self.set_aside):
+        if not (self.triage_corrections or self.set_aside):
             return None
         return TRIAGED if self.accused and self.corrected_name else self.corrected_name
 
     def datasets(self, folder: Path) -> dict[str, str]:
         """The texts of the corrected datasets by file name, to be written into a folder."""
-        written = {self.triaged_name: self._certain, self.corrected_name: self.corrections}
+        written = {self.triaged_name: self.triage_corrections, self.corrected_name: self.corrections}
         return {
             name: corrected_text(self.setting.dataset, corrections, self.set_aside, folder)
             for name, corrections in written.items()

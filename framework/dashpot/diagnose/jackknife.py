@@ -17,11 +17,13 @@ PIECES = 12  # of a run
 CONFIDENCE = 0.95
 
 
-def standard_errors(values: Array, shapes: Array, edges: Sequence[int]) -> Array:
-    """The standard errors (k,) of the strengths of shapes (k, n) in values (n,), pieces between ``edges`` left out.
+def half_widths(values: Array, shapes: Array, edges: Sequence[int]) -> Array:
+    """Half of the 95 % intervals (k,) of the strengths of shapes (k, n) in values (n,), cut into pieces at ``edges``.
 
-    What follows from one sample to the next within a piece makes them larger; infinite where there is one piece only.
+    What follows from one sample to the next within a piece makes them wider; infinite where there is one piece only.
     """
+    from scipy.stats import t
+
     parts = [slice(*ends) for ends in pairwise(edges)]
     grams = np.array([shapes[:, part] @ shapes[:, part].T for part in parts])
     rights = np.array([shapes[:, part] @ values[part] for part in parts])
@@ -30,12 +32,5 @@ def standard_errors(values: Array, shapes: Array, edges: Sequence[int]) -> Array
     without = zip(grams.sum(axis=0) - grams, rights.sum(axis=0) - rights, strict=True)
     found = np.array([np.linalg.lstsq(gram, right, rcond=1e-10)[0] for gram, right in without])
     away = found - found.mean(axis=0)
-    return np.asarray(np.sqrt((len(parts) - 1) / len(parts) * np.sum(away**2, axis=0)))
-
-
-def interval_of(value: float, error: float, pieces: int) -> tuple[float, float]:
-    """The 95 % interval of a value with a standard error from so many ``pieces`` (Student's t)."""
-    from scipy.stats import t
-
-    half = float(t.ppf(0.5 + 0.5 * CONFIDENCE, pieces - 1)) * error
-    return value - half, value + half
+    errors = np.sqrt((len(parts) - 1) / len(parts) * np.sum(away**2, axis=0))
+    return np.asarray(t.ppf(0.5 + 0.5 * CONFIDENCE, len(parts) - 1) * errors)

@@ -199,7 +199,7 @@ def _inside_of(refitter: Refitter, model: Model) -> Inside | None:
 def _left_by(columns: Columns, lines: Sequence[ChannelFault]) -> Noise:
     """The white noise that a model leaves, beside ``lines`` that each run may have in its force channel.
 
-    And beside what the data sheets admit, as far as this is more than all that is left.
+    Errors within the data sheets are random effects under a first estimate of it; then it is estimated again.
     """
     runs, residual = columns.refitter.runs, columns.residual
     shapes = _shapes(lines, columns.view, runs, columns.plain)

@@ -12,7 +12,6 @@ from dashpot.contract.cause import Cause
 from dashpot.diagnose.channel import Accused
 from dashpot.diagnose.evidence import DECADES
 from dashpot.diagnose.gain import Gain
-from dashpot.diagnose.jackknife import PIECES, interval_of
 from dashpot.diagnose.pursuit import NAMED
 from dashpot.diagnose.term import Model, Term
 from dashpot.model.network import NetworkSpec, Value
@@ -128,13 +127,12 @@ class NamedCause:
         """The numbers as they stand in result files: by their own name in the first branch, by path in further ones."""
         found: dict[str, Any] = {}
         for one in self.accused:
-            size, error = one.size
-            interval = interval_of(size, error, PIECES)
+            known = bool(np.all(np.isfinite(one.interval)))
             found[f"{one.kind.fault.quantity} of {one.run}"] = {
-                "value": size,
+                "value": one.size,
                 "unit": one.kind.fault.unit,
-                "interval": list(interval) if np.isfinite(error) else None,
-                "determined": is_known(interval) if np.isfinite(error) else None,
+                "interval": list(one.interval) if known else None,
+                "determined": is_known(one.interval) if known else None,
             }
         slopes = per_run(self.slots)
         for path, value in self.slots.items():

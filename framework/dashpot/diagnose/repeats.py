@@ -13,11 +13,11 @@ from numpy.typing import NDArray
 
 from dashpot.contract.cause import Cause, ChannelFault
 from dashpot.diagnose.folds import whole_cycles
-from dashpot.diagnose.jackknife import PIECES, standard_errors
+from dashpot.diagnose.jackknife import PIECES, half_widths
 from dashpot.diagnose.look import RESOLUTION, Doubt, Look
 from dashpot.diagnose.odds import Odds
 from dashpot.diagnose.refit import Refitter
-from dashpot.diagnose.whitening import Noise, discounted, filtered, independent_share, learn_filter
+from dashpot.diagnose.whitening import Noise, filtered, independent_share, learn_filter, whiten_effects
 from dashpot.fit import alike
 from dashpot.fit.scored import ScoredRun
 
@@ -73,7 +73,7 @@ def rows_of(refitter: Refitter, look: Look, kinds: Sequence[Kind], noise: Noise)
 def _pieces_of(run: ScoredRun, kept: int) -> list[int]:
     """Where the reduced record of a run, so many values, may be cut into whole cycles."""
     edges = whole_cycles(run.drive.displacement[run.first :], PIECES)
-    return [round(edge * kept / edges[-1]) for edge in edges]
+    return sorted({round(edge * kept / edges[-1]) for edge in edges})
 
 
 def doubts(refitter: Refitter, look: Look, kinds: Sequence[Kind], groups: Mapping[str, str]) -> list[Doubt]:
@@ -154,16 +154,17 @@ def outlier(rows: Rows, pair: Pair, pairs: Sequence[Pair], kind: int) -> float:
 def strengths_by_repeats(
     rows: Rows, run: str, others: Sequence[str], kinds: Sequence[int]
 ) -> list[tuple[Array, Array]]:
-    """The strengths (k,) of faults of a run, together, by which it differs from sound repeats, and their errors (k,).
+    """The strengths (k,) of faults of a run, together, by which it differs from sound repeats, and half of their 95 %
+    intervals (k,).
 
-    No model takes part. Repeats share the run at fault, so that more of them make no error smaller.
+    No model takes part. Repeats share the run at fault, so that more of them make no interval narrower.
     """
     sizes = [len(rows.shapes[run, kind]) for kind in kinds]
     each = [_difference(rows, run, other, kinds) for other in others]
     strengths = np.sqrt(2.0) * np.mean([strengths_of(*one) for one in each], axis=0)
-    errors = np.sqrt(2.0 * np.mean([standard_errors(*one, rows.pieces[run]) ** 2 for one in each], axis=0))
+    widths = np.sqrt(2.0 * np.mean([half_widths(*one, rows.pieces[run]) ** 2 for one in each], axis=0))
     ends = np.cumsum(sizes)[:-1]
-    return list(zip(np.split(strengths, ends), np.split(errors, ends), strict=True))
+    return list(zip(np.split(strengths, ends), np.split(widths, ends), strict=True))
 
 
 def _difference(
@@ -180,7 +181,9 @@ def _difference(
     admitted = rows.admitted.get(one, shapes[:0])
     coefficients = learn_filter(beside(difference, np.concatenate([shapes, admitted])), rows.smallest[one])
     errors = filtered(admitted, coefficients)
-    return discounted(filtered(difference, coefficients), errors), discounted(filtered(shapes, coefficients), errors)
+    return whiten_effects(filtered(difference, coefficients), errors), whiten_effects(
+        filtered(shapes, coefficients), errors
+    )
 
 
 def _numbers(rows: Rows, one: str, other: str) -> Array:

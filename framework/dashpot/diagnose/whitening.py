@@ -70,13 +70,13 @@ class Noise:
         """
         coefficients = self.filters[run]
         white = filtered(reduced, coefficients)
-        return discounted(white, filtered(self.admitted[run], coefficients)) if run in self.admitted else white
+        return whiten_effects(white, filtered(self.admitted[run], coefficients)) if run in self.admitted else white
 
     def beside_admitted(self, run: str, reduced: NDArray[Precision]) -> NDArray[Precision]:
         """Reduced signals (..., kept) in N, smaller along what the data sheet admits by as much as is noise there."""
         if run not in self.admitted:
             return reduced
-        return discounted(reduced, np.sqrt(self.weight(run)) * self.admitted[run])
+        return whiten_effects(reduced, np.sqrt(self.weight(run)) * self.admitted[run])
 
     def whiten(self, run: str, signals: Array) -> Array:
         """Signals (..., n) of a run, reduced and in units of their noise."""
@@ -109,7 +109,7 @@ def filtered(reduced: Array, coefficients: Array) -> Array:
     return np.asarray(white, dtype=np.float64)
 
 
-def discounted(white: NDArray[Precision], admitted: Array) -> NDArray[Precision]:
+def whiten_effects(white: NDArray[Precision], admitted: Array) -> NDArray[Precision]:
     """Signals (..., kept) in units of white noise, made white where errors of known size act beside it.
 
     The errors add normal deviates times the rows of ``admitted`` (k, kept); along these the noise is larger.

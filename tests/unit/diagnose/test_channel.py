@@ -28,7 +28,6 @@ from dashpot.diagnose.channel import accuse, conditions, covers, evidence_in
 from dashpot.diagnose.diagnose import diagnose
 from dashpot.diagnose.findings import Findings
 from dashpot.diagnose.folds import folds_of
-from dashpot.diagnose.jackknife import PIECES, interval_of
 from dashpot.diagnose.leftover import Leftover
 from dashpot.diagnose.look import look_at
 from dashpot.diagnose.repeats import begun_together, doubts, kinds_of, repeats_of
@@ -70,7 +69,7 @@ def test_a_repeat_that_differs_is_accused_with_its_size(word):
     one = found["again", word]
     assert one.evidence_of == "repeats" and "'a3_p8'" in one.words
     assert one.strengths[0] == pytest.approx(size, rel=0.15)
-    low, high = interval_of(*one.size, PIECES)
+    low, high = one.interval
     assert low < size < high < low + 0.5 * size
     sound, wrong = plain(MOTIONS["a3_p8"]), fault(plain(MOTIONS["a3_p8"]))
     assert np.std(one.correction.apply(wrong, 2e-3) - sound) < 0.15 * np.std(wrong - sound) + 0.5
@@ -162,7 +161,10 @@ def test_what_triage_corrects_stands_in_the_corrected_dataset():
         Fault("c", "unit", "", ""),
     ]
     found = SimpleNamespace(triage=SimpleNamespace(faults=faults))
-    assert Findings._certain.fget(found) == {"a": Correction(gain=1e-3), "b": Correction(displacement_gain=25.4)}
+    assert Findings.triage_corrections.fget(found) == {
+        "a": Correction(gain=1e-3),
+        "b": Correction(displacement_gain=25.4),
+    }
 
 
 def test_a_difference_of_two_repeats_accuses_one_of_them():
