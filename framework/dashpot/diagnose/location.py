@@ -27,13 +27,18 @@ class Location:
     site: Site | None = None
     ends: bool = False
 
-    def suspects(self, cause: type[Cause]) -> list[Suspect]:
-        """The forms of a cause to try here. Raises InputError for a form that cannot be tried."""
+    def suspects(self, cause: type[Cause], able: set[object]) -> list[Suspect]:
+        """The forms of a cause to try here. Raises InputError for a form that cannot be tried.
+
+        What is ``able`` to be tried joins the set: whether it is does not depend on the numbers of the network.
+        """
         if self.site and cause.kind == "measurement":
             return []
         found = [suspect for suspect in cause().suspects(self.view, self.network) if self._admits(cause, suspect)]
         for suspect in found:
-            suspect.columns(self.view, self.view.runs[0])
+            if (form := (cause, self.site, suspect.form, suspect.grid)) not in able:
+                suspect.columns(self.view, self.view.runs[0])
+                able.add(form)
         if self.ends:
             return found
         # columns inside a network are those of small forces: what several make up for may be the size of a single one
@@ -56,18 +61,23 @@ def locations_of(view: ModelView, network: NetworkSpec, inside: Inside | None) -
 
 
 def gather_candidates(
-    causes: Sequence[type[Cause]], locations: Sequence[Location], sheet: Collection[str] = ()
+    causes: Sequence[type[Cause]],
+    locations: Sequence[Location],
+    sheet: Collection[str] = (),
+    able: set[object] | None = None,
 ) -> tuple[list[Candidate], tuple[tuple[str, str], ...]]:
     """All forms of all causes that act in every run alike, and the causes that cannot be tried with the reason.
 
-    What only a data sheet can tell is tried where the ``sheet`` of the force channel names its quantity.
+    What only a data sheet can tell is tried where the ``sheet`` of the force channel names its quantity. Forms that are
+    ``able`` to be tried are not examined again.
     """
+    able = set() if able is None else able
     found: list[Candidate] = []
     unavailable, first, twins = [], 0, Counter[tuple[object, ...]]()
     for cause in causes:
         for location in locations:
             try:
-                suspects = location.suspects(cause)
+                suspects = location.suspects(cause, able)
             except InputError as error:
                 unavailable.append((cause.word, str(error)))
                 continue

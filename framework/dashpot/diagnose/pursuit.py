@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.diagnose.look import Look
+from dashpot.diagnose.odds import RIG_ODDS
 from dashpot.diagnose.score import nats
 from dashpot.diagnose.term import Model, Term
 
@@ -138,12 +139,12 @@ class Pursuit:
     def replacements(self, name: tuple[str, str], unexplained: float = 0.0) -> tuple[tuple[str, str], ...]:
         """The causes that stand in the place of one in more than one of ten draws.
 
-        And those of which it is less sure than NAMED beside what stays ``unexplained``.
+        And those from which it is told by less than NAMED beside what stays ``unexplained``.
         """
         least, known = (1.0 - NAMED) * self.winners.total(), set(self.best.model.names)
         drawn = {new for new, count in self._in_place_of(name).items() if count > least}
         others = self._without_name(name) if unexplained else []
-        near = [one for one in others if _decided(self._behind(one), unexplained) < NAMED]
+        near = [one for one in others if self._told(self.best, one, unexplained) < NAMED]
         return tuple(sorted(drawn.union(*(set(one.model.names) - known for one in near))))
 
     def _in_place_of(self, name: tuple[str, str]) -> Counter[tuple[str, str]]:
@@ -159,11 +160,25 @@ class Pursuit:
         return sum(count for names, count in self.winners.items() if held(names)) / self.winners.total()
 
     def _own(self, name: tuple[str, str], unexplained: float) -> float:
-        """What tells a cause from all that might be in its place, over that and what stays unexplained."""
-        alone = self.explained_alone(name)
+        """How surely a cause is told from its absence and from all that might be in its place."""
         if unexplained == 0.0:
-            return float(alone > 0.0 or self.without_cause(name) is None)
-        return _decided(min([alone, *map(self._behind, self._without_name(name))]), unexplained)
+            return float(self.explained_alone(name) > 0.0 or self.without_cause(name) is None)
+        pairs = [self._alone(name), *((self.best, other) for other in self._without_name(name))]
+        return min(self._told(whole, other, unexplained) for whole, other in pairs)
+
+    def _told(self, whole: Scored, other: Scored | None, unexplained: float) -> float:
+        """The probability of one of two structures beside a share ``unexplained`` of the square of the residual.
+
+        The BIC with one observation a group of runs: structure of unknown cause comes again in every cycle of a run,
+        and more cycles tell no more of it. The likelihood of so many normal deviates, of unknown variance, of which one
+        structure leaves more than the other, and the prior odds of faults of the measurement.
+        """
+        if other is None:
+            return 0.0
+        groups = self.look.folds.groups
+        ahead = 0.5 * groups * np.log1p(_growth(whole, other, forms_err=True) / unexplained)
+        behind = information(whole.model, groups) - information(other.model, groups)
+        return float(1.0 / (1.0 + np.exp(behind - ahead)))
 
     def _without_name(self, name: tuple[str, str]) -> list[Scored]:
         """The structures without a cause that have others in its place, and are as simple: no less likely beforehand.
@@ -174,19 +189,19 @@ class Pursuit:
         simple = [one for one in found if one.price <= self.best.price and not one.unproven]
         return [one for one in simple if name not in one.model.names]
 
-    def _behind(self, other: Scored) -> float:
-        """By what share the square is larger in a structure than in the best one, prior odds included."""
-        return _share_of(other.score - self.best.score, self.best)
-
     def explained(self, name: tuple[str, str]) -> float:
         """By what share the square of the residual grows without a cause, all else refitted."""
         return _growth(self.best, self.without_cause(name), forms_err=False)
 
     def explained_alone(self, name: tuple[str, str]) -> float:
         """The same where the forms of the other terms may err: what none of these can take up."""
+        return _growth(*self._alone(name), forms_err=True)
+
+    def _alone(self, name: tuple[str, str]) -> tuple[Scored, Scored | None]:
+        """The structure by which a cause is measured alone, and the same without it."""
         if gone := _without(self.without_one, name):
-            return _growth(self.likeliest, gone, forms_err=True)
-        return _growth(self.best, self.without_cause(name), forms_err=True)
+            return self.likeliest, gone
+        return self.best, self.without_cause(name)
 
     def without_cause(self, name: tuple[str, str]) -> Scored | None:
         """The structure without all terms of a cause, refitted; None where it has none."""
@@ -199,15 +214,14 @@ def _without(found: Sequence[Without], name: tuple[str, str]) -> Scored | None:
 
 def _growth(whole: Scored, less: Scored | None, forms_err: bool) -> float:
     """By what share the square of what is not predicted is larger in ``less``; 0 where there is none."""
-    return _share_of(less.likelihood(forms_err) - whole.likelihood(forms_err), whole) if less else 0.0
-
-
-def _decided(told: float, unexplained: float) -> float:
-    """The share of the square that tells one structure from another, of that and what stays unexplained."""
-    return 1.0 if np.isinf(told) else told / (told + unexplained)
-
-
-def _share_of(nats: float, whole: Scored) -> float:
-    """The share by which so many nats are a larger square, 0 where they are a smaller one."""
+    nats = less.likelihood(forms_err) - whole.likelihood(forms_err) if less else 0.0
     with np.errstate(over="ignore"):  # infinite, where no error of another form comes near it
         return float(np.expm1(2.0 * max(nats, 0.0) / float(whole.samples.sum())))
+
+
+def information(model: Model, observations: int) -> float:
+    """The nats that the terms of a model have to be worth: the BIC, and the prior odds of faults of the rig."""
+    return sum(
+        0.5 * model.count(number) * np.log(observations) - np.log(RIG_ODDS) * (term.kind == "measurement")
+        for number, term in enumerate(model.terms)
+    )

@@ -67,8 +67,9 @@ class Refitter:
     """What every refit needs: the training runs, the elements, and the data sheets of the force channel by run.
 
     ``noise`` is the noise floor of the records in N, infinite where nothing tells it.
-    ``written`` keeps the last texts of structures, ``reduced`` columns that depend on the motion alone. ``missing``
-    says whether it is certain that something is missing in the diagnosed network.
+    ``written`` keeps the last texts of structures, ``reduced`` columns that depend on the motion alone, ``able`` the
+    forms of causes that could be tried. ``missing`` says whether it is certain that something is missing in the
+    diagnosed network.
     """
 
     runs: Sequence[ScoredRun]
@@ -78,6 +79,7 @@ class Refitter:
     watch: Callable[[float], None] = lambda done: None
     written: dict[tuple[frozenset[str], tuple[Term, ...]], Written] = field(default_factory=dict)
     reduced: Kept = field(default_factory=Kept)
+    able: set[object] = field(default_factory=set)
     missing: bool = False
     noise: float = np.inf
 

@@ -12,6 +12,7 @@ from dashpot.diagnose.named import is_known, standing_of
 from dashpot.diagnose.pursuit import Pursuit, Scored, Without
 
 FOLDS, SAMPLES = 8, 100.0
+LOOK = SimpleNamespace(folds=SimpleNamespace(groups=FOLDS))  # every fold is a group of runs
 WEIGHTS = np.random.default_rng(0).exponential(size=(2000, FOLDS))
 
 
@@ -23,15 +24,24 @@ def squares_of(nats):
 def scored(nats, *names, price=0.0):
     """A structure with so many nats in each fold."""
     each = squares_of(nats)
-    terms = tuple(SimpleNamespace(name=(name, "")) for name in names)
-    model = SimpleNamespace(names=tuple(term.name for term in terms), terms=terms)
+    terms = tuple(SimpleNamespace(name=(name, ""), kind="specimen") for name in names)
+    model = SimpleNamespace(names=tuple(term.name for term in terms), terms=terms, count=lambda number: 1)
     return Scored(model, each, 0.0, each, np.full(FOLDS, SAMPLES), price)
 
 
-def pursuit(best, without, *others):
+def told(growth, unexplained, groups=FOLDS, numbers=0):
+    """The probability of a structure with so many numbers more than another, whose square is larger by ``growth``.
+
+    Bayes' rule with the BIC: so many groups, each of which is one normal deviate of unknown variance.
+    """
+    odds = (1.0 + growth / unexplained) ** (groups / 2.0) * groups ** (-numbers / 2.0)
+    return odds / (1.0 + odds)
+
+
+def pursuit(best, without, *others, look=LOOK):
     term = SimpleNamespace(name=("a", ""))
     missing = tuple(Without((term,), one) for one in without)
-    return Pursuit(best, None, None, missing, (), others, WEIGHTS, best, missing, 1, True)
+    return Pursuit(best, look, None, missing, (), others, WEIGHTS, best, missing, 1, True)
 
 
 def test_a_cause_that_every_fold_needs_is_certain():
@@ -58,20 +68,38 @@ def test_a_correction_that_the_score_does_without_hides_nothing_of_another_law()
     term = SimpleNamespace(name=law)
     missing = tuple(Without((SimpleNamespace(name=(name, "")),), scored(1.0)) for name in ("law", "correction"))
     alone = (Without((term,), scored(30.0)),)
-    hidden = Pursuit(best, None, None, missing, (), (), WEIGHTS, best, missing, 1, True)
+    hidden = Pursuit(best, LOOK, None, missing, (), (), WEIGHTS, best, missing, 1, True)
     seen = replace(hidden, likeliest=scored(0.0, "law"), without_one=alone)
     explained = np.expm1(2.0 * 30.0 / SAMPLES)
-    assert hidden.probability(law, 0.1) < 0.2
-    assert seen.probability(law, 0.1) == pytest.approx(explained / (explained + 0.1))
+    assert hidden.probability(law, 0.1) == pytest.approx(told(np.expm1(2.0 / SAMPLES), 0.1, numbers=2))
+    assert seen.probability(law, 0.1) == pytest.approx(told(explained, 0.1, numbers=1))
 
 
 @pytest.mark.parametrize("unexplained", [0.0, 0.1, 0.5, 0.9])
-def test_a_name_is_no_surer_than_its_part_of_what_is_not_noise(unexplained):
-    """The square of the residual grows by e = exp(2 nats / samples) - 1 without it; e over e + u."""
-    nats = 50.0
+def test_beside_structure_of_unknown_cause_each_group_of_runs_is_one_observation(unexplained):
+    """The square of the residual grows by e = exp(2 nats / samples) - 1 without it."""
+    nats = 10.0
     explained = np.exp(2.0 * nats * FOLDS / (SAMPLES * FOLDS)) - 1.0
     found = pursuit(scored(0.0, "a"), [scored(nats)]).probability(("a", ""), unexplained)
-    assert found == pytest.approx(explained / (explained + unexplained))
+    assert found == pytest.approx(told(explained, unexplained, numbers=1) if unexplained else 1.0)
+
+
+@pytest.mark.parametrize("groups", [1, 3, 30])
+def test_of_few_groups_of_runs_hardly_any_name_is_sure(groups):
+    """Not with how many samples or folds they have."""
+    look = SimpleNamespace(folds=SimpleNamespace(groups=groups))
+    found = pursuit(scored(0.0, "a"), [scored(20.0)], look=look).probability(("a", ""), 0.2)
+    assert found == pytest.approx(told(np.expm1(0.4), 0.2, groups, numbers=1))
+    assert (found >= 0.9) == (groups == 30)
+
+
+def test_a_fault_of_the_measurement_has_its_prior_odds_beside_what_is_unexplained():
+    rival = scored(BEHIND, "b")
+    fault = scored(0.0, "a")
+    fault.model.terms[0].kind = "measurement"
+    law = pursuit(scored(0.0, "a"), [scored(50.0)], rival).probability(("a", ""), 0.3)
+    found = pursuit(fault, [scored(50.0)], rival).probability(("a", ""), 0.3)
+    assert found / (1.0 - found) == pytest.approx(0.01 * law / (1.0 - law))
 
 
 BEHIND = 3.0  # nats in each fold by which a rival predicts worse
@@ -86,10 +114,11 @@ def beside_a_rival(price=0.0, unproven=frozenset()):
 
 @pytest.mark.parametrize("unexplained", [0.05, 0.3, 0.9])
 def test_a_name_is_no_surer_than_what_tells_it_from_a_rival_beside_the_unexplained(unexplained):
+    """A rival with as many numbers: the BIC of both is the same."""
     found = beside_a_rival()
-    assert found.probability(("a", ""), unexplained) == pytest.approx(BETWEEN / (BETWEEN + unexplained))
+    assert found.probability(("a", ""), unexplained) == pytest.approx(told(BETWEEN, unexplained))
     assert found.presence(("a", ""), unexplained) == found.probability(("a", ""), unexplained)
-    assert found.replacements(("a", ""), unexplained) == (("b", ""),)
+    assert found.replacements(("a", ""), unexplained) == (("b", ""),) * bool(told(BETWEEN, unexplained) < 0.9)
 
 
 def test_where_only_noise_is_left_the_draws_alone_tell_a_name_from_its_rival():
@@ -99,13 +128,13 @@ def test_where_only_noise_is_left_the_draws_alone_tell_a_name_from_its_rival():
 
 def test_a_rival_that_is_told_apart_is_none():
     found = beside_a_rival()
-    assert found.replacements(("a", ""), 0.1 * BETWEEN) == ()
-    assert found.probability(("a", ""), 0.1 * BETWEEN) == pytest.approx(1.0 / 1.1)
+    assert found.replacements(("a", ""), BETWEEN) == ()
+    assert found.probability(("a", ""), BETWEEN) == pytest.approx(2.0**4 / (1.0 + 2.0**4))
 
 
 def test_a_law_with_more_numbers_that_explains_no_more_is_no_rival():
     alone = np.expm1(2.0 * 50.0 / SAMPLES)
-    assert beside_a_rival(price=1.0).probability(("a", ""), 0.3) == pytest.approx(alone / (alone + 0.3))
+    assert beside_a_rival(price=1.0).probability(("a", ""), 0.3) == pytest.approx(told(alone, 0.3, numbers=1))
 
 
 def test_a_fault_of_the_measurement_without_evidence_makes_no_law_unsure():
@@ -132,19 +161,19 @@ def test_a_cause_without_which_no_form_comes_near_is_certain():
 def test_a_cause_without_which_no_form_comes_near_may_have_a_rival():
     rival = scored(BEHIND, "b")
     found = pursuit(scored(0.0, "a"), [replace(scored(50.0), errors=1e6)], rival)
-    assert found.probability(("a", ""), unexplained=0.5) == pytest.approx(BETWEEN / (BETWEEN + 0.5))
+    assert found.probability(("a", ""), unexplained=0.5) == pytest.approx(told(BETWEEN, 0.5))
 
 
 def test_what_another_form_could_explain_as_well_is_not_its_own():
-    """Beside u of unknown cause counts by how much the square grows where the other forms may err: a over a + u."""
+    """Beside structure of unknown cause counts by how much the square grows where the other forms may err."""
     found = pursuit(scored(0.0, "a"), [beside_errors_of_forms()])
-    assert found.probability(("a", ""), 0.1) == pytest.approx(ALONE / (ALONE + 0.1))
+    assert found.probability(("a", ""), 0.1) == pytest.approx(told(ALONE, 0.1, numbers=1))
     assert found.probability(("a", "")) == 1.0
 
 
-def test_a_cause_that_errors_of_forms_explain_whole_is_not_there():
+def test_a_cause_that_errors_of_forms_explain_whole_has_the_odds_of_its_numbers():
     found = pursuit(scored(0.0, "a"), [beside_errors_of_forms(1e-9)])
-    assert found.probability(("a", ""), 0.1) == pytest.approx(0.0, abs=1e-6)
+    assert found.probability(("a", ""), 0.1) == pytest.approx(told(0.0, 0.1, numbers=1), abs=1e-6)
 
 
 def test_a_rival_has_to_predict_better_with_the_laws_as_they_are():
