@@ -240,3 +240,27 @@ def test_columns_that_are_kept_in_memory_are_those_that_are_computed(made):
         anew = np.atleast_2d(candidate.suspect.columns(view, runs[0].name))[:, runs[0].first :]
         assert kept == pytest.approx(anew, rel=1e-5, abs=1e-5 * np.abs(anew).max()), candidate.suspect.form
     assert sum(candidate.twin > 0 for candidate in found) > 2
+
+
+def test_forms_that_could_be_tried_are_not_examined_again(made):
+    """Their columns are simulated once to see that they can be; one that cannot is told at every look."""
+    view, asked = view_of(made.model.fitted, moved(made.refitter.runs), made.refitter.elements), []
+
+    class Counted(Closed):
+        def suspects(self, view, network):
+            yield Suspect("counted", (1.0,), lambda view, run: asked.append(run) or view.velocity(run)[None], None)
+
+    class Lacking(Closed):
+        word = "lacking"
+
+        def suspects(self, view, network):
+            yield Suspect("lacking", (1.0,), lambda view, run: view.respond(run, "no_such_element", [{}]), None)
+
+    able = set()
+    for _ in range(2):
+        found, unavailable = gather_candidates(
+            [Counted, Lacking], locations_of(view, made.model.fitted, None), (), able
+        )
+        assert [one.suspect.form for one in found] == ["counted"]
+        assert [word for word, _ in unavailable] == ["lacking"]
+    assert asked == [view.runs[0]]
