@@ -192,8 +192,8 @@ def _agreement(white: Mapping[str, Array], pairs: Sequence[tuple[str, str]]) -> 
 def _structured(residual: Mapping[str, Array], pairs: Sequence[tuple[str, str]]) -> float:
     """The share of the square of residuals (kept,) by run that is structure, where repeats agree about some.
 
-    Of repeated runs it is what is the same in both, their covariance, of the others what is more than the noise by
-    which repeats differ.
+    Of repeated runs it is what is the same in both, their covariance, of all others together what is more than the
+    noise by which repeats differ: one by one the noise of some is larger, and would count as structure.
     """
     both = [(residual[one], residual[other]) for one, other in pairs]
     noise = 0.5 * float(np.mean(np.concatenate([one - other for one, other in both]) ** 2))
@@ -201,8 +201,8 @@ def _structured(residual: Mapping[str, Array], pairs: Sequence[tuple[str, str]])
     again = max(sum(float(one @ other) for one, other in both) / squares, 0.0)
     repeated = {run for pair in pairs for run in pair}
     whole = {run: float(found @ found) for run, found in residual.items()}
-    beyond = {run: max(whole[run] - noise * found.size, 0.0) for run, found in residual.items()}
-    return sum(again * whole[run] if run in repeated else beyond[run] for run in residual) / sum(whole.values())
+    beyond = sum(whole[run] - noise * found.size for run, found in residual.items() if run not in repeated)
+    return (again * sum(whole[run] for run in repeated) + max(beyond, 0.0)) / sum(whole.values())
 
 
 def _line(refitter: Refitter, look: Look, residual: Mapping[str, Array]) -> Leftover:

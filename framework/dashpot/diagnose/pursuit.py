@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.diagnose.look import Look
-from dashpot.diagnose.odds import RIG_ODDS
 from dashpot.diagnose.score import nats
 from dashpot.diagnose.term import Model, Term
 
@@ -144,7 +143,7 @@ class Pursuit:
         least, known = (1.0 - NAMED) * self.winners.total(), set(self.best.model.names)
         drawn = {new for new, count in self._in_place_of(name).items() if count > least}
         others = self._without_name(name) if unexplained else []
-        near = [one for one in others if self._told(self.best, one, unexplained) < NAMED]
+        near = [one for one in others if self._told(self._behind(one), unexplained) < NAMED]
         return tuple(sorted(drawn.union(*(set(one.model.names) - known for one in near))))
 
     def _in_place_of(self, name: tuple[str, str]) -> Counter[tuple[str, str]]:
@@ -160,25 +159,25 @@ class Pursuit:
         return sum(count for names, count in self.winners.items() if held(names)) / self.winners.total()
 
     def _own(self, name: tuple[str, str], unexplained: float) -> float:
-        """How surely a cause is told from its absence and from all that might be in its place."""
-        if unexplained == 0.0:
-            return float(self.explained_alone(name) > 0.0 or self.without_cause(name) is None)
-        pairs = [self._alone(name), *((self.best, other) for other in self._without_name(name))]
-        return min(self._told(whole, other, unexplained) for whole, other in pairs)
+        """How surely a cause is told from its absence, by its parameters, and from all that might be in its place."""
+        whole, less = self._alone(name)
+        alone = _growth(whole, less, forms_err=True)
+        if less is None or unexplained == 0.0:
+            return float(alone > 0.0 or less is None)
+        numbers = _count(whole.model) - _count(less.model)
+        rivals = [self._told(self._behind(other), unexplained) for other in self._without_name(name)]
+        return min([self._told(alone, unexplained, numbers), *rivals])
 
-    def _told(self, whole: Scored, other: Scored | None, unexplained: float) -> float:
+    def _told(self, growth: float, unexplained: float, numbers: int = 0) -> float:
         """The probability of one of two structures beside a share ``unexplained`` of the square of the residual.
 
-        The BIC with one observation a group of runs: structure of unknown cause comes again in every cycle of a run,
-        and more cycles tell no more of it. The likelihood of so many normal deviates, of unknown variance, of which one
-        structure leaves more than the other, and the prior odds of faults of the measurement.
+        The other one leaves more of the square by the share ``growth``, and has so many ``numbers`` less. The BIC with
+        one observation a group of runs: structure of unknown cause comes again in every cycle of a run, and more cycles
+        tell no more of it. So many normal deviates of unknown variance are compared.
         """
-        if other is None:
-            return 0.0
         groups = self.look.folds.groups
-        ahead = 0.5 * groups * np.log1p(_growth(whole, other, forms_err=True) / unexplained)
-        behind = information(whole.model, groups) - information(other.model, groups)
-        return float(1.0 / (1.0 + np.exp(behind - ahead)))
+        nats = 0.5 * (groups * np.log1p(growth / unexplained) - numbers * np.log(groups))
+        return float(1.0 / (1.0 + np.exp(-nats)))
 
     def _without_name(self, name: tuple[str, str]) -> list[Scored]:
         """The structures without a cause that have others in its place, and are as simple: no less likely beforehand.
@@ -188,6 +187,10 @@ class Pursuit:
         found = [*(one for _, one in self.rivals), *self.others]
         simple = [one for one in found if one.price <= self.best.price and not one.unproven]
         return [one for one in simple if name not in one.model.names]
+
+    def _behind(self, other: Scored) -> float:
+        """By what share the square is larger in a structure than in the best one, prior odds included."""
+        return _share_of(other.score - self.best.score, self.best)
 
     def explained(self, name: tuple[str, str]) -> float:
         """By what share the square of the residual grows without a cause, all else refitted."""
@@ -214,14 +217,15 @@ def _without(found: Sequence[Without], name: tuple[str, str]) -> Scored | None:
 
 def _growth(whole: Scored, less: Scored | None, forms_err: bool) -> float:
     """By what share the square of what is not predicted is larger in ``less``; 0 where there is none."""
-    nats = less.likelihood(forms_err) - whole.likelihood(forms_err) if less else 0.0
+    return _share_of(less.likelihood(forms_err) - whole.likelihood(forms_err), whole) if less else 0.0
+
+
+def _share_of(nats: float, whole: Scored) -> float:
+    """The share by which so many nats are a larger square, 0 where they are a smaller one."""
     with np.errstate(over="ignore"):  # infinite, where no error of another form comes near it
         return float(np.expm1(2.0 * max(nats, 0.0) / float(whole.samples.sum())))
 
 
-def information(model: Model, observations: int) -> float:
-    """The nats that the terms of a model have to be worth: the BIC, and the prior odds of faults of the rig."""
-    return sum(
-        0.5 * model.count(number) * np.log(observations) - np.log(RIG_ODDS) * (term.kind == "measurement")
-        for number, term in enumerate(model.terms)
-    )
+def _count(model: Model) -> int:
+    """How many parameters the terms of a model have."""
+    return sum(model.count(number) for number in range(len(model.terms)))

@@ -69,6 +69,26 @@ def test_structure_is_told_of_all_runs_and_not_of_the_repeated_ones_alone():
     assert found.share == pytest.approx(squares[0] / squares[1], abs=0.1)
 
 
+def test_noise_that_is_larger_in_some_runs_and_smaller_in_others_is_no_structure():
+    """The repeated runs have that in the middle; what differs by run cancels."""
+    pairs = [*AGAIN.items()]
+    structure = {new: coloured(7 + k, STRUCTURE, 0.8) for k, (new, _) in enumerate(pairs)}
+    structure |= {old: structure[new] for new, old in pairs}
+    others = [name for name in MOTIONS if name not in structure]
+    sizes = {name: NOISE * size for name, size in zip(others, np.sqrt(np.linspace(0.2, 1.8, len(others))), strict=True)}
+    names = [*structure, *others]
+    noise = {name: coloured(100 + k, sizes.get(name, NOISE), 0.0) for k, name in enumerate(names)}
+    fault = {name: lambda force, name=name: force + structure.get(name, 0.0) + noise[name] for name in names}
+    made = bench(dataset(repeats=AGAIN, fault=fault, noise=0.01))
+    look = look_at(made.refitter, made.model, causes("friction"), folds_of(made.refitter.runs, made.groups))
+    found = look_for_leftover(made.refitter, look, repeats_of(made.refitter, made.groups))
+    step = reduction(STEP, highest_frequency(made.refitter.runs))
+    alike = sum(float(np.sum(_means(one, step) ** 2)) for one in structure.values())
+    whole = sum(float(np.sum(_means(structure.get(name, 0.0) + noise[name], step) ** 2)) for name in names)
+    assert len(others) > 3 and found.what == "comes again in repeated runs"
+    assert found.share == pytest.approx(alike / whole, abs=0.06)
+
+
 @pytest.mark.parametrize("seed", range(4))
 @pytest.mark.parametrize(("share", "told"), [(0.0, False), (0.02, True)])
 def test_a_residual_that_grows_with_the_deflection_is_no_noise(seed, share, told):

@@ -93,15 +93,6 @@ def test_of_few_groups_of_runs_hardly_any_name_is_sure(groups):
     assert (found >= 0.9) == (groups == 30)
 
 
-def test_a_fault_of_the_measurement_has_its_prior_odds_beside_what_is_unexplained():
-    rival = scored(BEHIND, "b")
-    fault = scored(0.0, "a")
-    fault.model.terms[0].kind = "measurement"
-    law = pursuit(scored(0.0, "a"), [scored(50.0)], rival).probability(("a", ""), 0.3)
-    found = pursuit(fault, [scored(50.0)], rival).probability(("a", ""), 0.3)
-    assert found / (1.0 - found) == pytest.approx(0.01 * law / (1.0 - law))
-
-
 BEHIND = 3.0  # nats in each fold by which a rival predicts worse
 BETWEEN = np.exp(2.0 * BEHIND / SAMPLES) - 1.0
 
