@@ -285,15 +285,14 @@ def recorded_noise(columns: Columns, gram: Array, noise: Noise, faults: Mapping[
     are no noise. What the columns and faults take up of the noise itself is made up for, in its size and its spectrum,
     where at least half of the degrees of freedom of a run are left.
     """
-    from scipy.linalg import solve_triangular
-    from scipy.linalg.lapack import dpstrf
+    from scipy.linalg import cholesky, solve_triangular
 
     first = columns.first
     scale = np.sqrt(np.maximum(np.diag(gram), 1e-300))
     others = np.flatnonzero(np.arange(len(scale)) != first)
-    factor, order, rank, _ = dpstrf((gram / np.outer(scale, scale))[np.ix_(others, others)], lower=1, tol=RIDGE)
-    kept, root = others[order[:rank] - 1], factor[:rank, :rank]  # columns of which the others are combinations
-    aim = solve_triangular(root, gram[kept, first] / scale[kept], lower=True)
+    gram = gram / np.outer(scale, scale)
+    root = cholesky(gram[np.ix_(others, others)] + RIDGE * np.eye(others.size), lower=True)
+    aim = solve_triangular(root, gram[others, first], lower=True) * scale[first]
     filters, squares = {}, []
     for run in columns.refitter.runs:
         found, shapes = columns.of(run), faults[run.name]
@@ -302,7 +301,7 @@ def recorded_noise(columns: Columns, gram: Array, noise: Noise, faults: Mapping[
         for start in range(0, residual.size, BLOCK):
             known = min(start, ORDER)
             block = slice(start - known, start + BLOCK)
-            basis = solve_triangular(root, found[kept, block] / scale[kept, None], lower=True)
+            basis = solve_triangular(root, found[others, block] / scale[others, None], lower=True)
             rest[start : block.stop] -= aim @ basis[:, known:]
             taken += noise.weight(run.name) * lagged(basis, known) / residual.size
         if taken[0] > LEFT:
