@@ -87,9 +87,8 @@ class Judged:
         hidden = ", ".join(f"{name} {strength:.2g}{'' if hit else '!'}" for name, strength, hit in pairs)
         causes = self.found["causes"] if self.found else []
         said = [f"{one['cause']} {one['probability']:.2f}{'?' * (not one['accepted'])}" for one in causes]
-        mark = "ok " if self.exact else "   "
-        said_of_it = ", ".join(said) or self.spent.failed or "-"
-        return f"{mark} {self.case}: {hidden or '-'} -> {self.verdict}: {said_of_it} [{self.spent.seconds:.0f} s]"
+        mark, names = "ok " if self.exact else "   ", ", ".join(said) or self.spent.failed or "-"
+        return f"{mark} {self.case}: {hidden or '-'} -> {self.verdict}: {names} [{self.spent.seconds:.0f} s]"
 
 
 def diagnosed(model: str, seed: int, keep: Path, case: Path) -> tuple[Mapping[str, Any] | None, Spent]:
@@ -108,6 +107,8 @@ def diagnosed(model: str, seed: int, keep: Path, case: Path) -> tuple[Mapping[st
 def judged(root: Path, model: str, seed: int, keep: Path, jobs: int, cases: slice) -> list[Judged]:
     """The cases of a folder, diagnosed; then the labels are opened."""
     folders = sorted(path.parent for path in root.glob("*/dataset.yaml"))[cases]
+    if not folders:
+        raise SystemExit(f"{root}: expected folders with a dataset.yaml beside labels.json, got none")
     with ThreadPoolExecutor(jobs) as pool:
         found = list(pool.map(partial(diagnosed, model, seed, keep), folders))
     labels = {one["case"]: one for one in json.loads((root / "labels.json").read_text())["cases"]}

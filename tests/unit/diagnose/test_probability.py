@@ -24,7 +24,7 @@ def squares_of(nats):
 def scored(nats, *names, price=0.0):
     """A structure with so many nats in each fold."""
     each = squares_of(nats)
-    terms = tuple(SimpleNamespace(name=(name, ""), kind="specimen") for name in names)
+    terms = tuple(SimpleNamespace(name=(name, "")) for name in names)
     model = SimpleNamespace(names=tuple(term.name for term in terms), terms=terms, count=lambda number: 1)
     return Scored(model, each, 0.0, each, np.full(FOLDS, SAMPLES), price)
 
@@ -105,7 +105,7 @@ def beside_a_rival(price=0.0, unproven=frozenset()):
 
 @pytest.mark.parametrize("unexplained", [0.05, 0.3, 0.9])
 def test_a_name_is_no_surer_than_what_tells_it_from_a_rival_beside_the_unexplained(unexplained):
-    """A rival with as many numbers: the BIC of both is the same."""
+    """A rival that is as simple: by how much it leaves more is all that counts."""
     found = beside_a_rival()
     assert found.probability(("a", ""), unexplained) == pytest.approx(told(BETWEEN, unexplained))
     assert found.presence(("a", ""), unexplained) == found.probability(("a", ""), unexplained)
