@@ -59,13 +59,19 @@ class Delay(Cause):
 
 
 def _shifted(delays: Sequence[float], view: View, run: str) -> Array:
-    """The change of the force over a delay; before and after the run the force does not change."""
+    """The change of the force over a delay: held before the run, continued along its slope after it."""
     from scipy.interpolate import CubicSpline
 
     force, step = view.force(run), view.step(run)
     time = step * np.arange(force.size)
     path = CubicSpline(time, force)
-    return np.array([(path(np.clip(time - delay, 0.0, time[-1])) - force) / delay for delay in delays])
+
+    def late(delay: float) -> Array:
+        then = time - delay
+        ahead = float(path(time[-1], 1)) * np.maximum(then - time[-1], 0.0)
+        return path(np.clip(then, 0.0, time[-1])) + ahead
+
+    return np.array([(late(delay) - force) / delay for delay in delays])
 
 
 def _lagging(view: View, run: str) -> Array:

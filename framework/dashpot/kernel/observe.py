@@ -56,7 +56,7 @@ class Observation:
         """What the channel shows of ``force`` (lanes, samples).
 
         Between samples the force is the interpolating cubic spline, along which it is smoothed and shifted; before the
-        first sample it is held.
+        first sample it is held, after the last one continued along its slope.
         """
         if self.plain:
             return force
@@ -81,7 +81,8 @@ class Observation:
         force, changes = rows[0], rows[1:]
         if self.least[0] > -np.inf:
             changes = np.where(force > self.least[0], changes, 0.0)
-        late = _late(smoothed_straight(changes, float(self.lag[0]), dt), float(self.delay[0]) / dt, _straight)
+        smooth = smoothed_straight(changes, float(self.lag[0]), dt)
+        late = _late(smooth, float(self.delay[0]) / dt, _straight, smooth[:, -1] - smooth[:, -2])
         shown = self._unlimited(force[None], dt)
         beyond = shown[0] >= self.largest[0]
         found = np.concatenate([shown, self.gain[0] * late])
@@ -118,23 +119,34 @@ def _shifted(forces: Array, samples: Array) -> Array:
     late = np.flatnonzero((samples != 0.0) & np.isfinite(samples) & np.isfinite(forces).all(axis=1))
     if late.size:
         for number, slope in zip(late, slopes(forces[late]), strict=True):
-            found[number] = _late(forces[number], float(samples[number]), partial(_cubic, slope))
+            found[number] = _late(forces[number], float(samples[number]), partial(_cubic, slope), slope[-1])
     return found
 
 
-def _late(values: Array, samples: float, along: Callable[[Array, float, slice], Array]) -> Array:
-    """Values (..., n) late by so many samples, held before the first and after the last one.
+def _late(values: Array, samples: float, along: Callable[[Array, float, slice], Array], ahead: Array) -> Array:
+    """Values (..., n) late by so many samples, held before the first one and continued after the last one.
 
     Every place is the same ``part`` of a step behind the sample so many ``whole`` ones away: ``along`` gives the values
-    there, for a slice of samples at the beginning of their steps.
+    there, for a slice of samples at the beginning of their steps. ``ahead`` (...) are the slopes at the last sample.
     """
     count, whole = values.shape[-1], math.floor(-samples)
     first = min(max(-whole, 0), count)
     stop = max(min(count - 1 - whole, count), first)
     found = np.empty_like(values)
-    found[..., :first], found[..., stop:] = values[..., :1], values[..., -1:]
+    found[..., :first] = values[..., :1]
     found[..., first:stop] = along(values, -samples - whole, slice(first + whole, stop + whole))
+    found[..., stop:] = _continued(values, ahead, np.arange(stop, count) - samples - (count - 1))
     return found
+
+
+def _continued(values: Array, slope: Array, beyond: Array) -> Array:
+    """Values (..., m) so many samples beyond the last one: along the last slope, within the range of the record.
+
+    What comes early shows at the end of a record the motion after it. Held, it would miss it by far more than noise:
+    a delay then looks like a mass and a damper, which look back.
+    """
+    ahead = values[..., -1:] + np.multiply.outer(slope, beyond)
+    return np.clip(ahead, values.min(axis=-1, keepdims=True), values.max(axis=-1, keepdims=True))
 
 
 def _straight(values: Array, part: float, begin: slice) -> Array:

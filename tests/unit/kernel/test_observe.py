@@ -43,6 +43,20 @@ def test_before_the_record_the_force_is_held():
     assert seen[:6] == pytest.approx(np.full(6, wave(0.0)))
 
 
+@pytest.mark.parametrize("early", [0.4e-3, 1.4e-3, 2.6e-3])
+def test_after_the_record_an_early_force_goes_on_as_the_motion_does(early):
+    time = TIME[:342]  # ends on a rising flank
+    seen = channel(delay=-early).see(wave(time)[None], DT)[0]
+    assert seen[-3:] == pytest.approx(wave(time + early)[-3:], abs=0.5 * 6.2e5 * early**2)  # half of the curvature
+    held = abs(wave(time[-1]) - wave(time[-1] + early))
+    assert abs(seen[-1] - wave(time[-1] + early)) < 0.2 * held
+
+
+def test_after_the_record_an_early_force_stays_within_its_range():
+    seen = channel(delay=-50e-3).see(wave(TIME)[None], DT)[0]
+    assert seen.max() <= wave(TIME).max() and seen.min() >= wave(TIME).min()
+
+
 def test_the_gain_is_applied_behind_the_delay_and_the_offset_behind_both():
     seen = channel(gain=2.0, offset=5.0, delay=3e-3).see(wave(TIME)[None], DT)[0]
     assert seen[10:] == pytest.approx(2.0 * wave(TIME)[7:-3] + 5.0, abs=1e-9)
@@ -85,15 +99,20 @@ def test_small_changes_of_a_force_that_is_not_shown_are_not_shown():
     assert changes == pytest.approx(np.broadcast_to(wave(TIME) > 0.0, (2, TIME.size)).astype(float))
 
 
+def along_the_spline(row, then):
+    """Held before the first sample, along the tangent within the range of the row after the last one."""
+    spline, last = CubicSpline(np.arange(row.size), row), row.size - 1
+    tangent = np.clip(row[-1] + spline(last, 1) * (then - last), row.min(), row.max())
+    return np.where(then > last, tangent, spline(np.clip(then, 0.0, last)))
+
+
 @pytest.mark.parametrize("samples", [2, 3, 4, 5, 6, 400])
 def test_each_lane_is_shifted_along_its_own_cubic_spline(samples):
     rng = np.random.default_rng(seed_of("test_observe"))
     force, delay = rng.standard_normal((4, samples)).cumsum(axis=1), rng.uniform(-3e-3, 3e-3, 4)
     delay[2] = 0.0
     at = np.arange(samples)
-    expected = [
-        CubicSpline(at, row)(np.clip(at - late / 1e-3, 0.0, at[-1])) for row, late in zip(force, delay, strict=True)
-    ]
+    expected = [along_the_spline(row, at - late / 1e-3) for row, late in zip(force, delay, strict=True)]
     seen = Observation(np.ones(4), np.zeros(4), delay).see(force, 1e-3)
     assert seen == pytest.approx(np.array(expected), abs=1e-9 * np.abs(force).max())
     force[1, -1] = np.nan
