@@ -6,13 +6,27 @@ from types import MappingProxyType
 import numpy as np
 import pytest
 from scipy.signal import lfilter
-from unit.diagnose.rig import MOTIONS, NETWORK, STIFFNESS, TIME, Motion, bench, causes, dataset, friction, plain
+from unit.diagnose.rig import (
+    MOTIONS,
+    NETWORK,
+    REGISTRY,
+    STIFFNESS,
+    TIME,
+    Motion,
+    bench,
+    causes,
+    dataset,
+    friction,
+    plain,
+)
 
+from dashpot.diagnose.diagnose import diagnose
 from dashpot.diagnose.evidence import has_evidence, is_determined
 from dashpot.diagnose.folds import folds_of
 from dashpot.diagnose.look import look_at
 from dashpot.diagnose.score import Added, Scores, Structure
 from dashpot.diagnose.trials import terms_of
+from dashpot.model.reading import parse_network
 
 
 def refitter_of(made, sheet):
@@ -63,6 +77,14 @@ def test_dry_friction_is_no_clipping():
 @pytest.mark.parametrize("lag", [0.6e-3, 1.2e-3])
 def test_a_late_channel_is_proven_where_the_force_is_in_phase(lag):
     assert proven(dataset(late(plain, lag)), "delay")
+
+
+def test_an_early_channel_is_told_as_that_alone():
+    """The last samples show what the motion does after the record: a mass and a damper would make up for them."""
+    early = dataset(lambda motion: plain(motion, TIME + 4e-3))
+    found = diagnose(parse_network(NETWORK, REGISTRY.elements), early, registry=REGISTRY)
+    assert [(term.cause.word, term.accepted) for term in found.named] == [("delay", True)]
+    assert found.verdict == "explained"
 
 
 def test_dry_friction_behind_a_spring_is_no_delay():
