@@ -8,7 +8,7 @@ the detection limits.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any, TypeVar
 
@@ -27,6 +27,21 @@ HARMONICS = 5  # of the end of the driven band that the reduced records still ho
 
 
 @dataclass(frozen=True, eq=False)
+class _Effects:
+    """Errors beside white noise: the share ``lost`` (k,) of what lies along each of the ``directions`` (k, kept)."""
+
+    lost: Array
+    directions: Array
+
+    def whitened(self, white: NDArray[Precision]) -> NDArray[Precision]:
+        """Signals (..., kept) without these shares."""
+        if not self.lost.size:
+            return white
+        lost, directions = self.lost.astype(white.dtype), self.directions.astype(white.dtype)
+        return np.asarray(white - (white @ directions.T * lost) @ directions, dtype=white.dtype)
+
+
+@dataclass(frozen=True, eq=False)
 class Noise:
     """For every run how many samples are averaged, and the prediction-error filter (order + 1,) of the residual.
 
@@ -39,6 +54,7 @@ class Noise:
     filters: Mapping[str, Array] = field(default_factory=dict)
     independent: Mapping[str, float] = field(default_factory=dict)
     admitted: Mapping[str, Array] = field(default_factory=dict)
+    _effects: dict[tuple[str, bool], _Effects] = field(default_factory=dict, init=False, repr=False)
 
     def kept(self, run: str, samples: int) -> int:
         """How many values are kept of so many samples."""
@@ -70,13 +86,21 @@ class Noise:
         """
         coefficients = self.filters[run]
         white = filtered(reduced, coefficients)
-        return whiten_effects(white, filtered(self.admitted[run], coefficients)) if run in self.admitted else white
+        if run not in self.admitted:
+            return white
+        return self._of_run(run, True, lambda: filtered(self.admitted[run], coefficients)).whitened(white)
 
     def beside_admitted(self, run: str, reduced: NDArray[Precision]) -> NDArray[Precision]:
         """Reduced signals (..., kept) in N, smaller along what the data sheet admits by as much as is noise there."""
         if run not in self.admitted:
             return reduced
-        return whiten_effects(reduced, np.sqrt(self.weight(run)) * self.admitted[run])
+        return self._of_run(run, False, lambda: np.sqrt(self.weight(run)) * self.admitted[run]).whitened(reduced)
+
+    def _of_run(self, run: str, filtered: bool, white: Callable[[], Array]) -> _Effects:
+        """The errors that the data sheet admits in a run, in units of white noise; asked for with every column."""
+        if (run, filtered) not in self._effects:
+            self._effects[run, filtered] = _effects_of(white())
+        return self._effects[run, filtered]
 
     def whiten(self, run: str, signals: Array) -> Array:
         """Signals (..., n) of a run, reduced and in units of their noise."""
@@ -114,11 +138,12 @@ def whiten_effects(white: NDArray[Precision], admitted: Array) -> NDArray[Precis
 
     The errors add normal deviates times the rows of ``admitted`` (k, kept); along these the noise is larger.
     """
-    if not admitted.size:
-        return white
+    return _effects_of(admitted).whitened(white)
+
+
+def _effects_of(admitted: Array) -> _Effects:
     _, sizes, directions = np.linalg.svd(admitted, full_matrices=False)
-    lost, directions = (1.0 - (1.0 + sizes**2) ** -0.5).astype(white.dtype), directions.astype(white.dtype)
-    return np.asarray(white - (white @ directions.T * lost) @ directions, dtype=white.dtype)
+    return _Effects(1.0 - (1.0 + sizes**2) ** -0.5, directions)
 
 
 def independent_share(rest: Array) -> float:
