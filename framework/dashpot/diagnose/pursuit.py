@@ -143,7 +143,7 @@ class Pursuit:
         least, known = (1.0 - NAMED) * self.winners.total(), set(self.best.model.names)
         drawn = {new for new, count in self._in_place_of(name).items() if count > least}
         others = self._without_name(name) if unexplained else []
-        near = [one for one in others if self._told(self._behind(one), unexplained) < NAMED]
+        near = [one for one in others if self._ahead_of(one, unexplained) < NAMED]
         return tuple(sorted(drawn.union(*(set(one.model.names) - known for one in near))))
 
     def _in_place_of(self, name: tuple[str, str]) -> Counter[tuple[str, str]]:
@@ -159,24 +159,25 @@ class Pursuit:
         return sum(count for names, count in self.winners.items() if held(names)) / self.winners.total()
 
     def _own(self, name: tuple[str, str], unexplained: float) -> float:
-        """How surely a cause is told from its absence, by its parameters, and from all that might be in its place."""
+        """How surely a cause is told from a law that nobody has named, and from all that might be in its place.
+
+        What stays ``unexplained`` is such a law, too, in the same specimen: more runs do not say how much of it the
+        cause has taken up. So the cause has its share of what both explain.
+        """
         whole, less = self._alone(name)
         alone = _growth(whole, less, forms_err=True)
         if less is None or unexplained == 0.0:
             return float(alone > 0.0 or less is None)
-        numbers = _count(whole.model) - _count(less.model)
-        rivals = [self._told(self._behind(other), unexplained) for other in self._without_name(name)]
-        return min([self._told(alone, unexplained, numbers), *rivals])
+        share = alone / (alone + unexplained) if np.isfinite(alone) else 1.0
+        return min([share, *(self._ahead_of(other, unexplained) for other in self._without_name(name))])
 
-    def _told(self, growth: float, unexplained: float, numbers: int = 0) -> float:
-        """The probability of one of two structures beside a share ``unexplained`` of the square of the residual.
+    def _ahead_of(self, other: Scored, unexplained: float) -> float:
+        """The probability of the best structure against one as simple, beside a share ``unexplained`` of the square.
 
-        The other one leaves more of the square by the share ``growth``, and has so many ``numbers`` less. The BIC with
-        one observation a group of runs: structure of unknown cause comes again in every cycle of a run, and more cycles
-        tell no more of it. So many normal deviates of unknown variance are compared.
+        Both are laws that are known. Structure of unknown cause comes again in every cycle of a run, and more cycles
+        tell no more of it: each group of runs is one observation, a normal deviate of unknown variance (BIC).
         """
-        groups = self.look.folds.groups
-        nats = 0.5 * (groups * np.log1p(growth / unexplained) - numbers * np.log(groups))
+        nats = 0.5 * self.look.folds.groups * np.log1p(self._behind(other) / unexplained)
         return float(1.0 / (1.0 + np.exp(-nats)))
 
     def _without_name(self, name: tuple[str, str]) -> list[Scored]:
@@ -224,8 +225,3 @@ def _share_of(nats: float, whole: Scored) -> float:
     """The share by which so many nats are a larger square, 0 where they are a smaller one."""
     with np.errstate(over="ignore"):  # infinite, where no error of another form comes near it
         return float(np.expm1(2.0 * max(nats, 0.0) / float(whole.samples.sum())))
-
-
-def _count(model: Model) -> int:
-    """How many parameters the terms of a model have."""
-    return sum(model.count(number) for number in range(len(model.terms)))

@@ -29,12 +29,17 @@ def scored(nats, *names, price=0.0):
     return Scored(model, each, 0.0, each, np.full(FOLDS, SAMPLES), price)
 
 
-def told(growth, unexplained, groups=FOLDS, numbers=0):
-    """The probability of a structure with so many numbers more than another, whose square is larger by ``growth``.
+def its_share(growth, unexplained):
+    """The probability of a cause against an unknown law that has left a share ``unexplained``: its part of both."""
+    return growth / (growth + unexplained)
+
+
+def told(growth, unexplained, groups=FOLDS):
+    """The probability of a structure against one as simple, whose square is larger by ``growth``.
 
     Bayes' rule with the BIC: so many groups, each of which is one normal deviate of unknown variance.
     """
-    odds = (1.0 + growth / unexplained) ** (groups / 2.0) * groups ** (-numbers / 2.0)
+    odds = (1.0 + growth / unexplained) ** (groups / 2.0)
     return odds / (1.0 + odds)
 
 
@@ -71,26 +76,17 @@ def test_a_correction_that_the_score_does_without_hides_nothing_of_another_law()
     hidden = Pursuit(best, LOOK, None, missing, (), (), WEIGHTS, best, missing, 1, True)
     seen = replace(hidden, likeliest=scored(0.0, "law"), without_one=alone)
     explained = np.expm1(2.0 * 30.0 / SAMPLES)
-    assert hidden.probability(law, 0.1) == pytest.approx(told(np.expm1(2.0 / SAMPLES), 0.1, numbers=2))
-    assert seen.probability(law, 0.1) == pytest.approx(told(explained, 0.1, numbers=1))
+    assert hidden.probability(law, 0.1) == pytest.approx(its_share(np.expm1(2.0 / SAMPLES), 0.1))
+    assert seen.probability(law, 0.1) == pytest.approx(its_share(explained, 0.1))
 
 
 @pytest.mark.parametrize("unexplained", [0.0, 0.1, 0.5, 0.9])
-def test_beside_structure_of_unknown_cause_each_group_of_runs_is_one_observation(unexplained):
-    """The square of the residual grows by e = exp(2 nats / samples) - 1 without it."""
-    nats = 10.0
-    explained = np.exp(2.0 * nats * FOLDS / (SAMPLES * FOLDS)) - 1.0
-    found = pursuit(scored(0.0, "a"), [scored(nats)]).probability(("a", ""), unexplained)
-    assert found == pytest.approx(told(explained, unexplained, numbers=1) if unexplained else 1.0)
-
-
 @pytest.mark.parametrize("groups", [1, 3, 30])
-def test_of_few_groups_of_runs_hardly_any_name_is_sure(groups):
-    """Not with how many samples or folds they have."""
+def test_a_cause_has_its_share_of_what_it_and_an_unknown_law_explain(unexplained, groups):
+    """The square of the residual grows by e = exp(2 nats / samples) - 1 without it; more runs are the same specimen."""
     look = SimpleNamespace(folds=SimpleNamespace(groups=groups))
-    found = pursuit(scored(0.0, "a"), [scored(20.0)], look=look).probability(("a", ""), 0.2)
-    assert found == pytest.approx(told(np.expm1(0.4), 0.2, groups, numbers=1))
-    assert (found >= 0.9) == (groups == 30)
+    found = pursuit(scored(0.0, "a"), [scored(10.0)], look=look).probability(("a", ""), unexplained)
+    assert found == pytest.approx(its_share(np.expm1(2.0 * 10.0 / SAMPLES), unexplained))
 
 
 BEHIND = 3.0  # nats in each fold by which a rival predicts worse
@@ -106,8 +102,9 @@ def beside_a_rival(price=0.0, unproven=frozenset()):
 @pytest.mark.parametrize("unexplained", [0.05, 0.3, 0.9])
 def test_a_name_is_no_surer_than_what_tells_it_from_a_rival_beside_the_unexplained(unexplained):
     """A rival that is as simple: by how much it leaves more is all that counts."""
-    found = beside_a_rival()
-    assert found.probability(("a", ""), unexplained) == pytest.approx(told(BETWEEN, unexplained))
+    found, alone = beside_a_rival(), np.expm1(2.0 * 50.0 / SAMPLES)
+    expected = min(told(BETWEEN, unexplained), its_share(alone, unexplained))
+    assert found.probability(("a", ""), unexplained) == pytest.approx(expected)
     assert found.presence(("a", ""), unexplained) == found.probability(("a", ""), unexplained)
     assert found.replacements(("a", ""), unexplained) == (("b", ""),) * bool(told(BETWEEN, unexplained) < 0.9)
 
@@ -125,7 +122,7 @@ def test_a_rival_that_is_told_apart_is_none():
 
 def test_a_law_with_more_numbers_that_explains_no_more_is_no_rival():
     alone = np.expm1(2.0 * 50.0 / SAMPLES)
-    assert beside_a_rival(price=1.0).probability(("a", ""), 0.3) == pytest.approx(told(alone, 0.3, numbers=1))
+    assert beside_a_rival(price=1.0).probability(("a", ""), 0.3) == pytest.approx(its_share(alone, 0.3))
 
 
 def test_a_fault_of_the_measurement_without_evidence_makes_no_law_unsure():
@@ -158,13 +155,13 @@ def test_a_cause_without_which_no_form_comes_near_may_have_a_rival():
 def test_what_another_form_could_explain_as_well_is_not_its_own():
     """Beside structure of unknown cause counts by how much the square grows where the other forms may err."""
     found = pursuit(scored(0.0, "a"), [beside_errors_of_forms()])
-    assert found.probability(("a", ""), 0.1) == pytest.approx(told(ALONE, 0.1, numbers=1))
+    assert found.probability(("a", ""), 0.1) == pytest.approx(its_share(ALONE, 0.1))
     assert found.probability(("a", "")) == 1.0
 
 
-def test_a_cause_that_errors_of_forms_explain_whole_has_the_odds_of_its_numbers():
+def test_a_cause_that_errors_of_forms_explain_whole_is_none():
     found = pursuit(scored(0.0, "a"), [beside_errors_of_forms(1e-9)])
-    assert found.probability(("a", ""), 0.1) == pytest.approx(told(0.0, 0.1, numbers=1), abs=1e-6)
+    assert found.probability(("a", ""), 0.1) == pytest.approx(0.0, abs=1e-6)
 
 
 def test_a_rival_has_to_predict_better_with_the_laws_as_they_are():
