@@ -24,7 +24,7 @@ from dashpot.data.correction import Correction
 from dashpot.data.run import Run
 from dashpot.diagnose.faults_beside import FaultsBeside
 from dashpot.diagnose.look import Doubt, Look
-from dashpot.diagnose.odds import RIG_ODDS, Odds
+from dashpot.diagnose.odds import RIG_ODDS, Odds, share_of_both
 from dashpot.diagnose.refit import Refitter
 from dashpot.diagnose.repeats import (
     SAME_MOTION,
@@ -73,7 +73,7 @@ class Accused:
         What the model leaves there may also be all that the fault explains; a repeat needs no model.
         """
         sure = self.words != NEIGHBOURS.partition("|")[2] or not unexplained > 0.0
-        return replace(self, probability=1.0 if sure else self.explained / (self.explained + unexplained))
+        return replace(self, probability=1.0 if sure else share_of_both(self.explained, unexplained))
 
     @property
     def correction(self) -> Correction:

@@ -1,8 +1,9 @@
-"""The prior odds of a structure: how many causes there are to choose from, and how usual each is."""
+"""The odds of a structure beforehand: how many causes there are, how usual each is; and against a law without a name."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import isfinite
 
 import numpy as np
 
@@ -39,3 +40,12 @@ class Odds:
         """The price of all terms of a model."""
         each = sum(self.price(term.kind, model.count(number)) for number, term in enumerate(model.terms))
         return each + self.of_any(len(model.causes))
+
+
+def share_of_both(explained: float, unexplained: float) -> float:
+    """The probability of a cause against a law that nobody has named: its share of what both explain.
+
+    Both are shares of the square of the residual. The unknown law acts in the same specimen, so that more runs do not
+    say how much of what it does the cause has taken up.
+    """
+    return explained / (explained + unexplained) if isfinite(explained) else 1.0

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.diagnose.look import Look
+from dashpot.diagnose.odds import share_of_both
 from dashpot.diagnose.score import nats
 from dashpot.diagnose.term import Model, Term
 
@@ -159,17 +160,13 @@ class Pursuit:
         return sum(count for names, count in self.winners.items() if held(names)) / self.winners.total()
 
     def _own(self, name: tuple[str, str], unexplained: float) -> float:
-        """How surely a cause is told from a law that nobody has named, and from all that might be in its place.
-
-        What stays ``unexplained`` is such a law, too, in the same specimen: more runs do not say how much of it the
-        cause has taken up. So the cause has its share of what both explain.
-        """
+        """How surely a cause is told from a law that nobody has named, and from all that might be in its place."""
         whole, less = self._alone(name)
         alone = _growth(whole, less, forms_err=True)
         if less is None or unexplained == 0.0:
             return float(alone > 0.0 or less is None)
-        share = alone / (alone + unexplained) if np.isfinite(alone) else 1.0
-        return min([share, *(self._ahead_of(other, unexplained) for other in self._without_name(name))])
+        rivals = [self._ahead_of(other, unexplained) for other in self._without_name(name)]
+        return min([share_of_both(alone, unexplained), *rivals])
 
     def _ahead_of(self, other: Scored, unexplained: float) -> float:
         """The probability of the best structure against one as simple, beside a share ``unexplained`` of the square.

@@ -96,11 +96,11 @@ class Noise:
             return reduced
         return self._of_run(run, False, lambda: np.sqrt(self.weight(run)) * self.admitted[run]).whitened(reduced)
 
-    def _of_run(self, run: str, filtered: bool, white: Callable[[], Array]) -> _Effects:
+    def _of_run(self, run: str, behind_filter: bool, white: Callable[[], Array]) -> _Effects:
         """The errors that the data sheet admits in a run, in units of white noise; asked for with every column."""
-        if (run, filtered) not in self._effects:
-            self._effects[run, filtered] = _effects_of(white())
-        return self._effects[run, filtered]
+        if (run, behind_filter) not in self._effects:
+            self._effects[run, behind_filter] = _effects_of(white())
+        return self._effects[run, behind_filter]
 
     def whiten(self, run: str, signals: Array) -> Array:
         """Signals (..., n) of a run, reduced and in units of their noise."""
