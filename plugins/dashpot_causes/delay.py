@@ -59,19 +59,12 @@ class Delay(Cause):
 
 
 def _shifted(delays: Sequence[float], view: View, run: str) -> Array:
-    """The change of the force over a delay: held before the run, continued along its slope after it."""
-    from scipy.interpolate import CubicSpline
+    """The change of the force over a delay, as the force channel of a network shows it."""
+    from dashpot.kernel.observe import Observation
 
-    force, step = view.force(run), view.step(run)
-    time = step * np.arange(force.size)
-    path = CubicSpline(time, force)
-
-    def late(delay: float) -> Array:
-        then = time - delay
-        ahead = float(path(time[-1], 1)) * np.maximum(then - time[-1], 0.0)
-        return path(np.clip(then, 0.0, time[-1])) + ahead
-
-    return np.array([(late(delay) - force) / delay for delay in delays])
+    force, late = view.force(run), np.array(delays)
+    channel = Observation(np.ones(late.size), np.zeros(late.size), late)
+    return (channel.see(np.tile(force, (late.size, 1)), view.step(run)) - force) / late[:, None]
 
 
 def _lagging(view: View, run: str) -> Array:

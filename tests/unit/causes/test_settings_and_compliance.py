@@ -108,12 +108,13 @@ def test_a_delay_and_a_low_pass_take_the_place_of_each_other(there, other):
 
 
 def test_a_delay_shifts_the_force_by_its_own_size():
-    """Against the force of the same motion a little earlier: held before the run, along its tangent after it."""
+    """Against the force a little earlier: held before the run, after it along its tangent, within its range."""
     form = next(one for one in REGISTRY.causes["delay"]().suspects(VIEW, VIEW.network) if one.form == "delay")
     force, time = VIEW.force("large"), STEP * np.arange(120)
     for delay, column in zip(form.grid, form.columns(VIEW, "large"), strict=True):
         path, then = make_interp_spline(time, force, k=5), time - delay
         tangent = path(time[-1]) + path(time[-1], 1) * (then - time[-1])
+        tangent = np.clip(tangent, force.min(), force.max())
         shifted = np.where(then > time[-1], tangent, path(np.clip(then, 0.0, time[-1])))
         assert delay * column == pytest.approx(shifted - force, abs=2e-2 * np.ptp(force))
 
