@@ -160,13 +160,18 @@ class Pursuit:
         return sum(count for names, count in self.winners.items() if held(names)) / self.winners.total()
 
     def _own(self, name: tuple[str, str], unexplained: float) -> float:
-        """How surely a cause is told from a law that nobody has named, and from all that might be in its place."""
+        """How surely a cause is told from a law that nobody has named, from chance, and from all in its place.
+
+        Of chance a law that is none predicts every group of runs better with 1/2, and all of them with 1/2^G (sign
+        test).
+        """
         whole, less = self._alone(name)
         alone = _growth(whole, less, forms_err=True)
         if less is None or unexplained == 0.0:
             return float(alone > 0.0 or less is None)
+        by_chance = 0.5**self.look.folds.groups
         rivals = [self._ahead_of(other, unexplained) for other in self._without_name(name)]
-        return min([share_of_both(alone, unexplained), *rivals])
+        return min([share_of_both(alone, unexplained), 1.0 - by_chance, *rivals])
 
     def _ahead_of(self, other: Scored, unexplained: float) -> float:
         """The probability of the best structure against one as simple, beside a share ``unexplained`` of the square.

@@ -80,13 +80,25 @@ def test_a_correction_that_the_score_does_without_hides_nothing_of_another_law()
     assert seen.probability(law, 0.1) == pytest.approx(its_share(explained, 0.1))
 
 
+def of_groups(groups, nats, unexplained):
+    """The probability of a cause without which so many groups of runs are predicted worse by so many nats each."""
+    look = SimpleNamespace(folds=SimpleNamespace(groups=groups))
+    return pursuit(scored(0.0, "a"), [scored(nats)], look=look).probability(("a", ""), unexplained)
+
+
 @pytest.mark.parametrize("unexplained", [0.0, 0.1, 0.5, 0.9])
-@pytest.mark.parametrize("groups", [1, 3, 30])
+@pytest.mark.parametrize("groups", [2, 8, 30])
 def test_a_cause_has_its_share_of_what_it_and_an_unknown_law_explain(unexplained, groups):
     """The square of the residual grows by e = exp(2 nats / samples) - 1 without it; more runs are the same specimen."""
-    look = SimpleNamespace(folds=SimpleNamespace(groups=groups))
-    found = pursuit(scored(0.0, "a"), [scored(10.0)], look=look).probability(("a", ""), unexplained)
-    assert found == pytest.approx(its_share(np.expm1(2.0 * 10.0 / SAMPLES), unexplained))
+    expected = its_share(np.expm1(2.0 * 10.0 / SAMPLES), unexplained)
+    assert of_groups(groups, 10.0, unexplained) == pytest.approx(expected)
+
+
+@pytest.mark.parametrize(("groups", "agree"), [(1, 0.5), (2, 0.75), (3, 0.875), (4, 0.9375), (5, 0.96875)])
+def test_a_few_groups_of_runs_may_agree_by_chance(groups, agree):
+    """Each falls on the side of a law that is none with one half, as a coin does; three are too few for a name."""
+    assert of_groups(groups, 1000.0, unexplained=0.1) == pytest.approx(agree)
+    assert of_groups(groups, 1000.0, unexplained=0.0) == 1.0
 
 
 BEHIND = 3.0  # nats in each fold by which a rival predicts worse
@@ -140,10 +152,10 @@ def beside_errors_of_forms(forms=4.0):
     return Scored(**{**vars(scored(forms)), "exact": squares_of(10.0)})
 
 
-def test_a_cause_without_which_no_form_comes_near_is_certain():
+def test_a_cause_without_which_no_form_comes_near_is_as_certain_as_the_groups_can_tell():
     """The errors that forms would need to stand for it cost more nats than a float holds as a power."""
     found = pursuit(scored(0.0, "a"), [replace(scored(50.0), errors=1e6)])
-    assert found.probability(("a", ""), unexplained=0.5) == 1.0
+    assert found.probability(("a", ""), unexplained=0.5) == 1.0 - 0.5**FOLDS
 
 
 def test_a_cause_without_which_no_form_comes_near_may_have_a_rival():
