@@ -162,8 +162,7 @@ class Pursuit:
     def _own(self, name: tuple[str, str], unexplained: float) -> float:
         """How surely a cause is told from a law that nobody has named, from chance, and from all in its place.
 
-        Of chance a law that is none predicts every group of runs better with 1/2, and all of them with 1/2^G (sign
-        test).
+        A law that is none predicts a group of runs better in one of two cases, all G groups in one of 2^G (sign test).
         """
         whole, less = self._alone(name)
         alone = _growth(whole, less, forms_err=True)
