@@ -20,9 +20,10 @@ from dashpot.diagnose.folds import FEWEST
 from dashpot.diagnose.leftover import look_for_leftover
 from dashpot.diagnose.look import Look, give_back_memory, look_at
 from dashpot.diagnose.next_run import NextRun, next_run
+from dashpot.diagnose.odds import agreed_by_chance
 from dashpot.diagnose.polish import FEWER_STEPS, STEPS, known, polished
 from dashpot.diagnose.pursue import Pursuer
-from dashpot.diagnose.pursuit import Pursuit
+from dashpot.diagnose.pursuit import NAMED, Pursuit
 from dashpot.diagnose.refit import Kept, Refitter
 from dashpot.diagnose.repeats import begun_together, doubts, kinds_of, repeats_of
 from dashpot.diagnose.single_runs import corrected, faults_beside, floor_of_corrected, names_of, put_right
@@ -243,13 +244,24 @@ def remarks_on(spec: NetworkSpec, dataset: Dataset, pursuit: Pursuit) -> list[st
     """What the diagnosis could not do, and how the search ended."""
     found = [*settings_in_words(dataset), *limits_of(spec)]
     found += [] if pursuit.ended else [f"The search was cut short after {pursuit.looks} looks at all candidates."]
-    groups = pursuit.look.folds.groups
+    found += of_few_groups(pursuit.look.folds.groups)
+    return [*found, *dict.fromkeys(pursuit.refused)]
+
+
+def of_few_groups(groups: int) -> list[str]:
+    """What so few independent training runs, each with its repeats, do not tell."""
+    found = []
     if groups < FEWEST:
         found.append(
             f"With {groups} independent training run{'s' * (groups > 1)} parts of runs were left out in turn: "
             "whether the causes hold under other conditions is not known."
         )
-    return [*found, *dict.fromkeys(pursuit.refused)]
+    if 1.0 - agreed_by_chance(groups) < NAMED:
+        found.append(
+            f"So few agree by chance in one of {2**groups} cases: where something stays unexplained no cause is named "
+            "before further runs are measured."
+        )
+    return found
 
 
 def next_runs(refitter: Refitter, pursuit: Pursuit) -> dict[tuple[str, str], NextRun]:

@@ -42,6 +42,11 @@ class Odds:
         return each + self.of_any(len(model.causes))
 
 
+def agreed_by_chance(groups: int) -> float:
+    """How likely a law that is none predicts so many groups of runs all better: each by one half (sign test)."""
+    return 0.5**groups
+
+
 def share_of_both(explained: float, unexplained: float) -> float:
     """The probability of a cause against a law that nobody has named: its share of what both explain.
 

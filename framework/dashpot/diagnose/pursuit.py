@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.diagnose.look import Look
-from dashpot.diagnose.odds import share_of_both
+from dashpot.diagnose.odds import agreed_by_chance, share_of_both
 from dashpot.diagnose.score import nats
 from dashpot.diagnose.term import Model, Term
 
@@ -160,15 +160,12 @@ class Pursuit:
         return sum(count for names, count in self.winners.items() if held(names)) / self.winners.total()
 
     def _own(self, name: tuple[str, str], unexplained: float) -> float:
-        """How surely a cause is told from a law that nobody has named, from chance, and from all in its place.
-
-        A law that is none predicts a group of runs better in one of two cases, all G groups in one of 2^G (sign test).
-        """
+        """How surely a cause is told from a law that nobody has named, from chance, and from all in its place."""
         whole, less = self._alone(name)
         alone = _growth(whole, less, forms_err=True)
         if less is None or unexplained == 0.0:
             return float(alone > 0.0 or less is None)
-        by_chance = 0.5**self.look.folds.groups
+        by_chance = agreed_by_chance(self.look.folds.groups)
         rivals = [self._ahead_of(other, unexplained) for other in self._without_name(name)]
         return min([share_of_both(alone, unexplained), 1.0 - by_chance, *rivals])
 
