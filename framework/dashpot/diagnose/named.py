@@ -119,8 +119,8 @@ class NamedCause:
             dict.fromkeys([*(term.suspect.form for term in self.terms), *(one.kind.fault.form for one in self.accused)])
         )
         shown = f"{self.cause.shows}. As {', then '.join(forms)} it has a probability of {self.probability:.2g}"
-        better, all_groups = self.groups
-        where = f" and predicts {better} of {all_groups} groups of runs better that were left out" if all_groups else ""
+        better, parts = self.groups
+        where = f" and predicts {better} of {parts} parts of the data better, each left out in turn" if parts else ""
         return f"{shown}{where}{f'; {self.proof}' if self.proof else ''}"
 
     def parameters(self) -> dict[str, Any]:
