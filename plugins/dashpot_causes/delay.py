@@ -62,9 +62,12 @@ def _shifted(delays: Sequence[float], view: View, run: str) -> Array:
     """The change of the force over a delay, as the force channel of a network shows it."""
     from dashpot.kernel.observe import Observation
 
-    force, late = view.force(run), np.array(delays)
-    channel = Observation(np.ones(late.size), np.zeros(late.size), late)
-    return (channel.see(np.tile(force, (late.size, 1)), view.step(run)) - force) / late[:, None]
+    force, step, one = view.force(run), view.step(run), np.ones(1)
+
+    def late(delay: float) -> Array:
+        return Observation(one, 0.0 * one, delay * one).see(force[None], step)[0]
+
+    return np.array([(late(delay) - force) / delay for delay in delays])
 
 
 def _lagging(view: View, run: str) -> Array:

@@ -1,4 +1,4 @@
-"""The prior odds of a structure: how many causes there are, how usual each is; the odds of a law without a name."""
+"""The prior odds of a structure: how many causes there are, how usual each is; chance and a law without a name."""
 
 from __future__ import annotations
 
