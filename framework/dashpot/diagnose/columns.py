@@ -17,6 +17,7 @@ from dashpot.diagnose.plainest import not_shown
 from dashpot.diagnose.refit import Refitter
 from dashpot.diagnose.table_rows import step_of
 from dashpot.diagnose.term import Model
+from dashpot.diagnose.term_forces import term_forces
 from dashpot.diagnose.view import ModelView
 from dashpot.diagnose.whitening import Noise
 from dashpot.fit.scored import ScoredRun
@@ -143,7 +144,7 @@ def linearised(
         bends=bends_of_tables(runs, view, model.fitted),
         faults=faults,
         doubted=len(shapes_of(faults, view, runs[0], plain)),
-        forces=refitter.term_forces(model) if candidates else [],
+        forces=term_forces(refitter, model) if candidates else [],
         candidates=candidates,
         inner=inside.bank(candidates, refitter.jobs, refitter.watch) if inside else None,
         unseen=not_shown(candidates, view, runs),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
-from functools import cache, cached_property
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +17,6 @@ from dashpot.diagnose.term import (
     Model,
     Part,
     Term,
-    alone,
     extended,
     given_branches,
     inherited,
@@ -32,6 +31,8 @@ from dashpot.fit.objective import Objective
 from dashpot.fit.ranges import Sizes, natural_sizes, with_ranges
 from dashpot.fit.refine import Outcome, refine
 from dashpot.fit.scored import ScoredRun
+from dashpot.fit.shelf import Shelf
+from dashpot.kernel.columns import Rows
 from dashpot.kernel.network import compile_network
 from dashpot.model.element import Element
 from dashpot.model.network import NetworkSpec
@@ -68,8 +69,8 @@ class Refitter:
 
     ``noise`` is the noise floor of the records in N, infinite where nothing tells it.
     ``written`` keeps the last texts of structures, ``reduced`` columns that depend on the motion alone, ``able`` the
-    forms of causes that could be tried. ``missing`` says whether it is certain that something is missing in the
-    diagnosed network.
+    forms of causes that could be tried, ``shelf`` what is prepared of the runs. ``missing`` says whether it is certain
+    that something is missing in the diagnosed network.
     """
 
     runs: Sequence[ScoredRun]
@@ -80,6 +81,7 @@ class Refitter:
     written: dict[tuple[frozenset[str], tuple[Term, ...]], Written] = field(default_factory=dict)
     reduced: Kept = field(default_factory=Kept)
     able: set[object] = field(default_factory=set)
+    shelf: Shelf[Rows] = field(default_factory=Shelf)
     missing: bool = False
     noise: float = np.inf
 
@@ -149,7 +151,7 @@ class Refitter:
 
     def forces(self, network: NetworkSpec) -> dict[str, Array]:
         """The force (n,) in N that a network with its numbers shows, by run."""
-        objective = Objective(compile_network(network), self.runs, self.jobs)
+        objective = Objective(compile_network(network), self.runs, self.jobs, shelf=self.shelf)
         found = objective.forces(objective.network.start)
         return {run.name: force[0] for run, force in zip(self.runs, found, strict=True)}
 
@@ -160,17 +162,6 @@ class Refitter:
         found = noise.reduce(run.name, shown(run, np.atleast_2d(candidate.suspect.columns(view, run.name))))
         if candidate.suspect.of_motion:
             self.reduced.keep(_key(candidate, run), found)
-        return found
-
-    def term_forces(self, model: Model) -> list[dict[str, Array]]:
-        """For each term what it adds to the force (n,) by run, all other numbers as they are."""
-        whole, found = cache(lambda: self.forces(model.fitted)), []
-        for number, term in enumerate(model.terms):
-            if (own := alone(model, number)) is not None:
-                found.append(self.forces(own))
-                continue
-            rest = self.forces(self.without(model, [other for other in model.terms if other is not term]))
-            found.append({run: force - rest[run] for run, force in whole().items()})
         return found
 
     def without(self, model: Model, terms: Sequence[Part]) -> NetworkSpec:
@@ -234,7 +225,7 @@ class Refitter:
         return reduced(base, gone, self.elements), {one: numbers_of(base, one) for one in given}
 
     def _objective(self, network: NetworkSpec, noise: Noise) -> Objective:
-        return Objective(compile_network(network), self.runs, self.jobs, noise)
+        return Objective(compile_network(network), self.runs, self.jobs, noise, shelf=self.shelf)
 
     def _fitted(
         self,

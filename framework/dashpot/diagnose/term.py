@@ -15,7 +15,7 @@ from dashpot.fit.ranges import Sizes, with_ranges
 from dashpot.fit.refine import Outcome
 from dashpot.model.element import Element
 from dashpot.model.expression import parse_expression
-from dashpot.model.network import Branch, Group, NetworkSpec, branch_slots
+from dashpot.model.network import Branch, NetworkSpec, branch_slots, over_slots
 from dashpot.model.patch import remove_branch
 from dashpot.model.reading import build_network
 from dashpot.model.sites import Site
@@ -25,8 +25,6 @@ from dashpot.text.document import Document
 Array = NDArray[np.float64]
 
 AT_BOUND = 1e-3  # of a range
-# what a force channel does to every force alike, and what it does not
-IN_PROPORTION, LIMITS = ("force.gain", "force.delay", "force.lag"), frozenset(("force.largest", "force.least"))
 
 
 @dataclass(frozen=True, eq=False)
@@ -213,33 +211,37 @@ def first_model(declared: NetworkSpec, fitted: NetworkSpec) -> Model:
     return Model(declared, terms, declared, owned, fitted, coordinates, coordinates.start)
 
 
-def alone(model: Model, number: int) -> NetworkSpec | None:
-    """The branches of a term as a network of their own, where these are all that goes with it, in parallel to the rest;
-    else None. The force channel shows them in proportion, without its offset.
+def without_term(model: Model, number: int) -> NetworkSpec | None:
+    """The fitted network without the branches, dependences and numbers of the force channel that a term brought.
+
+    All other numbers are as they are. None where the term has changed something else, or where something that another
+    term brought would have to go along: only the text of the network tells what is there then.
     """
-    network, term, owned = model.fitted, model.terms[number], model.owned[number]
-    names, seen = _branches(owned), network.measurement
-    before = {one.name for one in model.base.root.members} if isinstance(term, Term) else set()
-    members = tuple(one for one in network.root.members if isinstance(one, Branch) and one.name in names - before)
-    if network.joints or network.root.kind != "parallel" or not LIMITS.isdisjoint(seen):
+    network, owned = model.fitted, set(model.owned[number])
+    if network.joints or network.root.kind != "parallel":
         return None
-    # a dependence of numbers here and elsewhere would go as a whole
-    wider = any(names & (found := _branches(other)) and not found <= names for other in model.owned)
-    if wider or len(members) < len(names) or not all(_is_own(one, owned) for one in members):
-        return None
-    channel = {key: value for key, value in seen.items() if key in IN_PROPORTION}
-    return NetworkSpec(term.word, Group("", "parallel", members), channel)
+    known = {one.name for one in model.base.root.members} if isinstance(model.terms[number], Term) else set()
+    going = {one.name for one in network.leaves() if one.name not in known and _is_own(one, owned)}
+    channel = {key: value for key, value in network.measurement.items() if f"measurement.{key}" not in owned}
+    members = tuple(one for one in network.root.members if one.name not in going)
+    left = replace(network, root=replace(network.root, members=members), measurement=channel)
+    loose = [slot for slot in left.slots() if (brought := {one.path for one in over_slots(slot)}) and brought <= owned]
+    rest = left.with_values({slot.path: replace(slot.value, over=None) for slot in loose})
+    gone = {slot.path for slot in network.slots()} - {slot.path for slot in rest.slots()}
+    others = (set(other) for k, other in enumerate(model.owned) if k != number)
+    alone = all(other <= gone or not other & gone for other in others)  # a dependence is written as a whole
+    return rest if alone and owned <= gone and not _refers(rest, going) else None
 
 
-def _branches(paths: Sequence[str]) -> set[str]:
-    """The branches in which numbers are, by their paths."""
-    return {path.partition(".")[0] for path in paths}
+def _is_own(branch: Branch, owned: set[str]) -> bool:
+    """Whether all numbers of a branch are among those owned, but for what dependences bring."""
+    return bool(branch.values or branch.curves) and all(slot.path in owned for slot in branch_slots(branch))
 
 
-def _is_own(branch: Branch, owned: Sequence[str]) -> bool:
-    """Whether all numbers of a branch are among those owned, but for what dependences bring, and none is bound."""
-    bound = branch.shares or any(slot.value.expression for slot in branch_slots(branch))
-    return not bound and all(slot.path in owned for slot in branch_slots(branch))
+def _refers(network: NetworkSpec, gone: set[str]) -> bool:
+    """Whether branches have numbers of others that have gone, or a number follows from others."""
+    shared = any(one.shares in gone for one in network.leaves() if one.shares)
+    return shared or any(slot.value.expression for slot in network.slots())
 
 
 def given_branches(network: NetworkSpec) -> tuple[Given, ...]:

@@ -175,9 +175,9 @@ def _strengths(objective: Objective, kinds: Sequence[_Kind]) -> list[Array] | No
     normal, right = np.zeros((loose.size, loose.size)), np.zeros(loose.size)
     members = objective.parts.members
     for number, run in enumerate(objective.runs):
-        rows = objective.part_rows(number).each
+        each = [(members[kind.member].network, kind.lanes) for kind in kinds]
         forces = np.concatenate(
-            [members[kind.member].network.simulate(rows[kind.member], kind.lanes) for kind in kinds]
+            [network.simulate(objective.rows_of(network, number), lanes) for network, lanes in each]
         )[:, run.first :] * objective.factor(number)
         target = run.force[run.first :] * objective.factor(number) - forces[~loose].sum(axis=0)
         normal += forces @ forces.T

@@ -18,7 +18,7 @@ from dashpot.fit.scored import ScoredRun
 from dashpot.fit.shelf import TIMES_FOR_STEPS, Shelf
 from dashpot.kernel.columns import Rows
 from dashpot.kernel.network import CompiledNetwork, compile_network
-from dashpot.kernel.parts import MovedLanes, PartRows, Parts, take_apart
+from dashpot.kernel.parts import MovedLanes, Parts, take_apart
 from dashpot.kernel.pieces import SystemRows
 from dashpot.kernel.scratch import Scratch
 from dashpot.kernel.solution import Solution
@@ -48,7 +48,8 @@ class Objective:
 
     As it is, runs weigh as they say, whatever their length, and a loss is the root of the mean over runs of the mean
     squared error, in N. ``weights`` (runs,), of which only the proportions count, change that. With a ``whitening`` a
-    loss is the root mean square of all whitened misfits.
+    loss is the root mean square of all whitened misfits. Objectives on the same runs may share a ``shelf`` for what is
+    prepared of these.
     """
 
     def __init__(
@@ -58,15 +59,15 @@ class Objective:
         jobs: Jobs = 1,
         whitening: Whitening | None = None,
         weights: Sequence[float] | None = None,
+        shelf: Shelf[Rows] | None = None,
     ) -> None:
         self.network, self.runs, self.jobs, self.whitening = network, tuple(runs), threads(jobs), whitening
         shares = np.array([run.weight for run in self.runs]) if weights is None else np.asarray(weights, dtype=float)
         self.shares = shares / shares.mean()
         self.teams = _teams(self.runs)
         self.steps = EnoughSteps(network, self.runs)
-        # no methods of its own: what is large goes with the last reference, not when garbage is collected
-        times = TIMES_FOR_STEPS if isinstance(network, CompiledSystem) else 1.0
-        self.rows: Shelf[Rows | SystemRows] = Shelf(partial(_prepared, network, self.runs), times)
+        self.shelf: Shelf[Rows] = shelf or Shelf()
+        self.steps_shelf: Shelf[SystemRows] = Shelf(TIMES_FOR_STEPS)
         self.moved: LastMoved[Team] = LastMoved(len(self.teams))
         self.scratch = Scratch()
         self.total = sum(
@@ -87,19 +88,15 @@ class Objective:
         """Numbers of runs, grouped: those of a group are repeats of one another, or were measured together."""
         return repeated(self.runs)
 
-    def _rows(self, team: Team) -> Rows | SystemRows:
-        """What is prepared of runs that were measured together, with as many steps as they need so far."""
-        return self.rows((team, self.steps.of(team)))
+    def rows_of(self, network: CompiledNetwork, number: int) -> Rows:
+        """What is prepared of a run for the network, or for one of its branches alone."""
+        run = self.runs[number]
+        return self.shelf(network.outlook, run, lambda: network.prepare(run.excitation))
 
     @cached_property
     def parts(self) -> Parts:
         """The branches of the network alone."""
         return take_apart(self.network.spec)
-
-    @cached_property
-    def part_rows(self) -> Shelf[PartRows]:
-        """The runs, by number, as the branches see them."""
-        return Shelf(partial(_prepared_parts, self.parts, self.runs))
 
     def linearise(self, values: Array, moves: Array, reduce: Callable[[int, Array], Result]) -> Iterator[Result]:
         """What ``reduce`` makes of one run after the other, from its number and its rows (1 + k, values).
@@ -123,7 +120,8 @@ class Objective:
         for number in team:
             run = self.runs[number]
             excitation, dt = run.excitation, run.drive.dt
-            forces = self.parts.sensitivities(self.part_rows(number), lanes, len(moves), self.scratch)
+            rows = [self.rows_of(part.network, number) for part in self.parts.members]
+            forces = self.parts.sensitivities(rows, lanes, len(moves), self.scratch)
             found = run.seen(self.network.observation(values, excitation).linear(forces, dt))[:, run.first :]
             for k in np.flatnonzero(moves[:, self.parts.outside].any(axis=1)):
                 other = self.network.observation(values + moves[k], excitation).see(forces[:1] + forces[1 + k], dt)[0]
@@ -211,17 +209,17 @@ class Objective:
 
     def _scored(self, team: Team, values: Array) -> Array:
         # the mean squared errors (runs, lanes) of runs that were measured together
-        rows, runs = self._rows(team), [self.runs[number] for number in team]
+        runs = [self.runs[number] for number in team]
         if isinstance(self.network, CompiledNetwork):
-            assert isinstance(rows, Rows)
+            rows = self.rows_of(self.network, team[0])
             targets, weights = [run.force for run in runs], [_weights(run) for run in runs]
             return self.network.score([rows] * len(runs), targets, weights, values)
-        assert isinstance(rows, SystemRows)
-        places = [self.network.number_of(run.end) for run in runs]
-        target, weight = np.zeros((2, len(self.network.outputs), runs[0].force.size))
+        network, steps = self._system(team)
+        places = [network.number_of(run.end) for run in runs]
+        target, weight = np.zeros((2, len(network.outputs), runs[0].force.size))
         for place, run in zip(places, runs, strict=True):
             target[place], weight[place] = run.force, _weights(run)
-        return self.network.score([rows], [target], [weight], values)[0][places]
+        return network.score([steps], [target], [weight], values)[0][places]
 
     def factor(self, number: int) -> float:
         """By what the misfits of a run are multiplied, where they are not whitened."""
@@ -236,10 +234,9 @@ class Objective:
 
     def _forces(self, team: Team, values: Array) -> Iterator[tuple[int, Array]]:
         # what the load cells show in runs that were measured together
-        rows = self._rows(team)
-        see = self.network.observation(values, self.runs[team[0]].excitation).see
         if isinstance(self.network, CompiledNetwork):
-            assert isinstance(rows, Rows)
+            rows = self.rows_of(self.network, team[0])
+            see = self.network.observation(values, self.runs[team[0]].excitation).see
             for number in team:
                 found = see(np.atleast_2d(self.network.simulate(rows, values)), rows.drive.dt)
                 yield number, self.runs[number].seen(found)
@@ -255,9 +252,10 @@ class Objective:
         return network.solve_around(rows, lanes)
 
     def _system(self, team: Team) -> tuple[CompiledSystem, SystemRows]:
-        rows = self._rows(team)
-        assert isinstance(self.network, CompiledSystem) and isinstance(rows, SystemRows)
-        return self.network, rows
+        # with as many steps as runs that were measured together need so far
+        assert isinstance(self.network, CompiledSystem)
+        network, excitation, refine = self.network, self.runs[team[0]].excitation, self.steps.of(team)
+        return network, self.steps_shelf(refine, team, lambda: network.prepare(excitation, refine))
 
     def _shown(self, team: Team, values: Array, solution: Solution) -> Iterator[tuple[int, Array]]:
         # what the load cells show of a solution
@@ -278,19 +276,6 @@ def as_simulated(spec: NetworkSpec, runs: Sequence[ScoredRun], jobs: Jobs = 1) -
 
 def _elsewhere(spec: NetworkSpec, runs: Sequence[ScoredRun], whitening: Whitening | None, shares: Array) -> Objective:
     return Objective(compile_network(spec), runs, 1, whitening, shares.tolist())
-
-
-def _prepared(
-    network: CompiledNetwork | CompiledSystem, runs: Sequence[ScoredRun], key: tuple[Team, int]
-) -> Rows | SystemRows:
-    """The runs of a team as a network sees them, with so many steps a sample."""
-    team, refine = key
-    excitation = runs[team[0]].excitation
-    return network.prepare(excitation) if isinstance(network, CompiledNetwork) else network.prepare(excitation, refine)
-
-
-def _prepared_parts(parts: Parts, runs: Sequence[ScoredRun], number: int) -> PartRows:
-    return parts.prepare(runs[number].excitation)
 
 
 def _squares(signals: Array) -> Array:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -41,7 +42,7 @@ class ScoredRun:
         """Simulated forces (..., n) as the measurement would know them: of a steady sine the fundamental alone."""
         return fundamental_of(force) if self.kind == STEADY else force
 
-    @property
+    @cached_property
     def excitation(self) -> Excitation:
         """What drives the specimen."""
         return Excitation.of_drive(self.drive) if self.whole is None else replace(self.whole, motions=self.motions)

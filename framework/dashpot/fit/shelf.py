@@ -1,9 +1,11 @@
-"""What is prepared of a run, kept as long as there is room."""
+"""What is prepared of runs, kept as long as there is room."""
 
 from __future__ import annotations
 
+from collections import OrderedDict
 from collections.abc import Callable, Hashable
-from typing import Any, Generic, Protocol, TypeVar
+from threading import Lock
+from typing import Generic, Protocol, TypeVar
 
 ROOM = 40e6  # bytes
 TIMES_FOR_STEPS = 3.0  # the room of what takes a microsecond and more to prepare a sample
@@ -21,20 +23,37 @@ Kept = TypeVar("Kept", bound=Sized)
 
 
 class Shelf(Generic[Kept]):
-    """Answers what ``make`` makes of a key: the first ones are kept until the room is full, others made anew each time.
+    """Keeps what was made of a kind for a key. What has no room is made anew each time.
 
-    It costs a few nanoseconds a sample to prepare a run, so that large data take a little time instead of memory. What
-    is kept may grow as it is used. There is so many ``times`` the usual room.
+    It takes a few nanoseconds a sample to prepare a run, so that large data take a little time instead of memory. Room
+    is made by letting go of the kinds that were asked for longest ago, and never of the one that is asked for: of runs
+    that do not all have room the first ones stay. What is kept may grow as it is used. There is so many ``times`` the
+    usual room.
     """
 
-    def __init__(self, make: Callable[[Any], Kept], times: float = 1.0) -> None:
-        self._make, self._room = make, times * ROOM
-        self._kept: dict[Hashable, Kept] = {}
+    def __init__(self, times: float = 1.0) -> None:
+        self._room = times * ROOM
+        self._kinds: OrderedDict[Hashable, dict[Hashable, Kept]] = OrderedDict()
+        self._bytes: dict[Hashable, int] = {}
+        self._lock = Lock()  # several threads prepare runs of one network
 
-    def __call__(self, key: Hashable) -> Kept:
-        found = self._kept.get(key)
+    def __call__(self, kind: Hashable, key: Hashable, make: Callable[[], Kept]) -> Kept:
+        with self._lock:
+            known = self._kinds.setdefault(kind, {})
+            self._kinds.move_to_end(kind)
+            found = known.get(key)
         if found is None:
-            found = self._make(key)
-            if found.nbytes + sum(other.nbytes for other in list(self._kept.values())) <= self._room:
-                self._kept[key] = found
+            found = make()
+            with self._lock:
+                self._keep(kind, key, found)
         return found
+
+    def _keep(self, kind: Hashable, key: Hashable, made: Kept) -> None:
+        own = self._kinds.setdefault(kind, {})
+        self._bytes[kind] = sum(one.nbytes for one in own.values())
+        while sum(self._bytes.values()) + made.nbytes > self._room and (oldest := next(iter(self._kinds))) != kind:
+            del self._kinds[oldest]
+            self._bytes.pop(oldest, None)
+        if self._bytes[kind] + made.nbytes <= self._room:
+            own[key] = made
+            self._bytes[kind] += made.nbytes

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,7 +35,7 @@ class Rows:
     turn_columns: Array
     settings: Mapping[str, float] = field(default_factory=dict)
 
-    @property
+    @cached_property
     def nbytes(self) -> int:
         """The bytes of all columns, those of the drive not among them."""
         return self.columns.nbytes + self.index.nbytes + self.local.nbytes + self.turn_columns.nbytes

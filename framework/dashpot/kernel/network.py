@@ -59,6 +59,16 @@ class CompiledNetwork(Compiled[Rows]):
     def _natives(self) -> dict[tuple[str, int, bool], Code]:
         return {}
 
+    @cached_property
+    def outlook(self) -> Hashable:
+        """All that ``prepare`` asks of a network: whatever its numbers, one of the same outlook sees a run alike."""
+        looked_up = tuple((look.curve, self.curves[look.curve].at) for look in self.program.lookups)
+        told = tuple(
+            (slot.value.setting, slot.value.over and (slot.value.over.word, slot.value.over.way))
+            for _, slot in self.spec.told_by_runs
+        )
+        return self.program, looked_up, told
+
     def prepare(self, motion: Drive | Excitation) -> Rows:
         """The part of the work that depends on the drive alone."""
         if isinstance(motion, Drive):

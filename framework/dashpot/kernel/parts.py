@@ -13,8 +13,6 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from dashpot.data.drive import Drive
-from dashpot.data.excitation import Excitation
 from dashpot.kernel.columns import Rows
 from dashpot.kernel.network import CompiledNetwork, compile_network
 from dashpot.kernel.scratch import Scratch
@@ -46,10 +44,6 @@ class Parts:
     members: tuple[Part, ...]
     outside: NDArray[np.bool_]
 
-    def prepare(self, motion: Drive | Excitation) -> PartRows:
-        """The part of the work that depends on the motion alone."""
-        return PartRows([part.network.prepare(motion) for part in self.members])
-
     def lanes(self, values: Array, moves: Array) -> list[MovedLanes]:
         """What has to be simulated of each structure for moves (k, slots) of ``values`` (slots,)."""
         found = []
@@ -61,12 +55,15 @@ class Parts:
             found.append(MovedLanes(np.concatenate([stand, stand[branch] + moved[move, branch]]), touched))
         return found
 
-    def sensitivities(self, rows: PartRows, lanes: Sequence[MovedLanes], count: int, scratch: Scratch) -> Array:
-        """The force of the whole and its changes (1 + count, n) with the moves from which the ``lanes`` came."""
-        samples = rows.each[0].drive.samples
+    def sensitivities(self, rows: Sequence[Rows], lanes: Sequence[MovedLanes], count: int, scratch: Scratch) -> Array:
+        """The force of the whole and its changes (1 + count, n) with the moves from which the ``lanes`` came.
+
+        ``rows`` are those of one run, as each structure sees it.
+        """
+        samples = rows[0].drive.samples
         found = scratch.take("changes", 1 + count, samples)
         empty = set(range(1 + count))
-        for part, run, moved in zip(self.members, rows.each, lanes, strict=True):
+        for part, run, moved in zip(self.members, rows, lanes, strict=True):
             forces = part.network.simulate(run, moved.lanes, scratch.take("forces", len(moved.lanes), samples))
             stand, changed = np.split(forces, [len(part.slots)])
             for force, branch in zip(changed, moved.touched[:, 1], strict=True):
@@ -79,18 +76,6 @@ class Parts:
                 empty.discard(place)
         found[list(empty)] = 0.0
         return found
-
-
-@dataclass(frozen=True, eq=False)
-class PartRows:
-    """A run as each structure sees it."""
-
-    each: Sequence[Rows]
-
-    @property
-    def nbytes(self) -> int:
-        """The bytes of all columns."""
-        return sum(rows.nbytes for rows in self.each)
 
 
 def take_apart(spec: NetworkSpec) -> Parts:

@@ -11,6 +11,7 @@ from dashpot.data.dataset import read_dataset
 from dashpot.diagnose.refit import Refitter
 from dashpot.diagnose.term import Model, Term
 from dashpot.diagnose.term import extended as extended_by
+from dashpot.diagnose.term_forces import term_forces
 from dashpot.fit.api import measure_errors, prepare
 from dashpot.fit.coordinates import search_coordinates
 from dashpot.fit.ranges import with_ranges
@@ -92,7 +93,7 @@ def test_what_a_term_adds_is_what_the_network_without_it_lacks(name, channel, da
     refitter = Refitter([*prepare(dataset, 0).scored.values()], REGISTRY.elements)
     coordinates = search_coordinates(with_ranges(declared, refitter.sizes))
     model = Model(base, (term,), declared, (owned,), declared, coordinates, coordinates.start)
-    whole, rest, (found,) = refitter.forces(declared), refitter.forces(base), refitter.term_forces(model)
+    whole, rest, (found,) = refitter.forces(declared), refitter.forces(base), term_forces(refitter, model)
     assert set(found) == set(whole)
     for run, force in found.items():
         assert force == pytest.approx(whole[run] - rest[run], abs=1e-9 * np.abs(whole[run]).max())

@@ -80,7 +80,16 @@ class Bytes(bytes):
 def test_the_first_are_kept_until_the_room_is_full(monkeypatch):
     monkeypatch.setattr(shelf, "ROOM", 25.0)
     made = []
-    answers = Shelf(lambda size: made.append(size) or Bytes(size))
+    answers = Shelf()
     for size in (10, 20, 15, 10, 20, 15):
-        assert len(answers(size)) == size
+        assert len(answers("a", size, lambda size=size: made.append(size) or Bytes(size))) == size
     assert made == [10, 20, 15, 20]
+
+
+def test_room_is_made_by_what_was_asked_for_longest_ago(monkeypatch):
+    monkeypatch.setattr(shelf, "ROOM", 25.0)
+    made = []
+    answers = Shelf()
+    for kind in "abacbab":
+        answers(kind, 0, lambda kind=kind: made.append(kind) or Bytes(10))
+    assert "".join(made) == "abcba"

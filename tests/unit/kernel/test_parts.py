@@ -39,7 +39,8 @@ def assert_adds_up(network: CompiledNetwork) -> None:
     shifts = 1e-3 * np.where(values[which] == 0.0, 1.0, values[which])
     moves = np.zeros((len(which), values.size))
     moves[np.arange(len(which)), which] = shifts
-    force, *changes = parts.sensitivities(parts.prepare(DRIVE), parts.lanes(values, moves), len(which), Scratch())
+    rows = [part.network.prepare(DRIVE) for part in parts.members]
+    force, *changes = parts.sensitivities(rows, parts.lanes(values, moves), len(which), Scratch())
     run = network.prepare(DRIVE)
     moved = np.repeat(values[None], len(which), axis=0)
     moved[np.arange(len(which)), which] += shifts
