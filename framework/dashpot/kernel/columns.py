@@ -19,6 +19,7 @@ from dashpot.kernel.ir.program import Program
 from dashpot.model.network import Characteristic
 
 Array = NDArray[np.float64]
+Constants = tuple[float, tuple[tuple[str, float], ...]]
 NEVER = -1  # where the kernel need not look for a turning point any more
 REST = ("velocity_old", "velocity_new", "acceleration")
 
@@ -34,6 +35,11 @@ class Rows:
     turn_at: NDArray[np.int64]
     turn_columns: Array
     settings: Mapping[str, float] = field(default_factory=dict)
+
+    @cached_property
+    def constants(self) -> Constants:
+        """The step in s, and the settings in the order of their names: what runs may have in common."""
+        return self.drive.dt, tuple(sorted(self.settings.items()))
 
     @cached_property
     def nbytes(self) -> int:

@@ -76,24 +76,15 @@ class Compiled(ABC, Generic[Prepared]):
                 signal = excitation.channels[over.word]
                 yield key, moved(over, lanes[:, number, None], list(inner), signal, slot.value.sensible)
 
-    def _blocks(self, dt: float, lanes: Array, width: int) -> list[Block]:
-        # a fit asks for the same lanes run by run; runs of one network may be in several threads
-        asked = dt, width, lanes.tobytes()
-        found = self._last.get(asked)
-        if found is None:
-            found = self._fresh_blocks(dt, lanes, width)
-            for oldest in list(self._last)[: -LAST + 1]:
-                self._last.pop(oldest, None)
-            self._last[asked] = found
-        return found
-
     @cached_property
-    def _last(self) -> dict[Hashable, list[Block]]:
+    def _last(self) -> dict[Hashable, dict[Hashable, list[Block]]]:
         return {}
 
-    @abstractmethod
-    def _fresh_blocks(self, dt: float, lanes: Array, width: int) -> list[Block]:
-        """Lanes (lanes, slots) in blocks of ``width``, ready for steps of ``dt`` in s."""
+    def _keep_last(self, asked: Hashable, ready: dict[Hashable, list[Block]]) -> None:
+        # lanes for the next run, which may be in another thread
+        for oldest in list(self._last)[: -LAST + 1]:
+            self._last.pop(oldest, None)
+        self._last[asked] = ready
 
     def _fill(self, rows: int, dt: float | Array, lanes: Array) -> Array:
         # a workspace (rows, lanes) with the constants of the lanes in its first rows; dt may be of each lane

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from dashpot.data.drive import Drive
 from dashpot.data.excitation import Excitation
 from dashpot.kernel.block import Block, blocks_of
-from dashpot.kernel.columns import Rows, prepare_rows
+from dashpot.kernel.columns import Constants, Rows, prepare_rows
 from dashpot.kernel.compiled import Compiled
 from dashpot.kernel.compiler.compile import program_of
 from dashpot.kernel.compiler.trace import refuse_missing_numbers
@@ -27,6 +27,8 @@ from dashpot.model.network import END, Characteristic, NetworkSpec
 from dashpot.model.topology import topology_of
 
 Array = NDArray[np.float64]
+
+MAKES = 64  # constants of runs for which lanes are made ready at once
 
 # vectors in a group, and whether it holds a single lane
 Group = tuple[int, bool]
@@ -79,11 +81,11 @@ class CompiledNetwork(Compiled[Rows]):
 
     def simulate(self, run: Rows, values: Array | None = None, out: Array | None = None) -> Array:
         """The force of the specimen (lanes, samples) in N, in ``out`` if given; one lane is answered as (samples,)."""
-        lanes = with_constants(self.spec, np.atleast_2d(self.start if values is None else values), run.settings)
+        lanes = np.atleast_2d(self.start if values is None else values)
         if out is None:
             out = np.empty((lanes.shape[0], run.drive.samples))
         code, width = self._group(lanes.shape[0])
-        for block in self._blocks(run.drive.dt, lanes, width):
+        for block in self._ready(run, lanes, width):
             buffer = np.empty((run.drive.samples, width))
             code(*_arguments(run, block, block.fresh_workspace()), None, None, buffer, block.count)
             out[block.place] = buffer.T[: block.count]
@@ -98,15 +100,11 @@ class CompiledNetwork(Compiled[Rows]):
         """
         lanes = np.atleast_2d(values)
         code, width = self._group(lanes.shape[0])
-        blocks: dict[Hashable, list[Block]] = {}
-        for run in runs:
-            if _make(run) not in blocks:
-                blocks[_make(run)] = self._blocks(run.drive.dt, with_constants(self.spec, lanes, run.settings), width)
 
         def work(run: Rows, target: Array, weight: Array) -> Array:
             out = np.empty(lanes.shape[0])
             aims = [np.ascontiguousarray(aim, dtype=float) for aim in (target, weight)]
-            for block in blocks[_make(run)]:
+            for block in self._ready(run, lanes, width):
                 workspace = block.fresh_workspace()
                 code(*_arguments(run, block, workspace), *aims, None, block.count)
                 out[block.place] = workspace[-1, : block.count]
@@ -121,14 +119,36 @@ class CompiledNetwork(Compiled[Rows]):
         vectors, _ = next((group for group in wider if group[0] * LANES >= count), wider[-1])
         return self.native(vectors), vectors * LANES
 
-    def _fresh_blocks(self, dt: float, lanes: Array, width: int) -> list[Block]:
+    def _ready(self, run: Rows, lanes: Array, width: int) -> list[Block]:
+        """Lanes (lanes, slots) as they are in a run, in blocks of ``width``.
+
+        A fit asks for the same lanes run by run, and it takes hardly longer to make them ready for many: that is done
+        for the constants of all runs that were asked for before.
+        """
+        asked = width, lanes.tobytes()
+        found = self._last.get(asked, {})
+        if run.constants not in found:
+            makes = [
+                run.constants,
+                *(other for other in [*self._seen] if other not in found and other != run.constants),
+            ]
+            found = found | dict(zip(makes, self._fresh_blocks(makes, lanes, width), strict=True))
+            self._keep_last(asked, found)
+            if len(self._seen) < MAKES:
+                self._seen[run.constants] = None
+        return found[run.constants]
+
+    @cached_property
+    def _seen(self) -> dict[Constants, None]:
+        return {}
+
+    def _fresh_blocks(self, makes: Sequence[Constants], lanes: Array, width: int) -> list[list[Block]]:
+        each = np.concatenate([with_constants(self.spec, lanes, dict(settings)) for _, settings in makes])
+        steps = np.repeat([dt for dt, _ in makes], len(lanes))
         curves = {look.curve: self.curves[look.curve] for look in self.program.lookups}
-        workspace = self._fill(1 + score_row(self.program), dt, lanes)
-        return list(blocks_of(self._tabulate(curves, lanes), workspace, width))
-
-
-def _make(run: Rows) -> Hashable:
-    return run.drive.dt, tuple(sorted(run.settings.items()))
+        tables, workspace = self._tabulate(curves, each), self._fill(1 + score_row(self.program), steps, each)
+        own = (slice(first, first + len(lanes)) for first in range(0, len(each), len(lanes)))
+        return [list(blocks_of(tables[..., at], workspace[:, at], width)) for at in own]
 
 
 def compile_network(spec: NetworkSpec) -> CompiledNetwork | CompiledSystem:

@@ -247,7 +247,7 @@ class CompiledSystem(Compiled[SystemRows]):
         By steps of high order the march ends as soon as every lane has been too fast for them.
         """
         step, driven = run.excitation.dt / course.steps(run), len(self.outputs)
-        blocks = tuple(replace(each, workspace=each.fresh_workspace()) for each in self._blocks(step, lanes, WIDTH))
+        blocks = tuple(replace(each, workspace=each.fresh_workspace()) for each in self._blocks(step, lanes))
         totals, misses = np.zeros((2, len(blocks), driven, WIDTH))
         states, rows = np.zeros((len(blocks), WIDTH)), driven + len(self.topology.unknown)
         out = np.empty((lanes.shape[0], rows, 0 if scoring else run.excitation.samples))
@@ -280,11 +280,16 @@ class CompiledSystem(Compiled[SystemRows]):
         scores = _of_lanes(totals, count).T
         return Marched(out if scoring is None else scores, _of_lanes(misses, count).T, _of_lanes(states, count), blocks)
 
-    def _fresh_blocks(self, dt: float, lanes: Array, width: int) -> list[Block]:
-        count = lanes.shape[0]
-        both = self._fill(self.system.rows, np.repeat([dt, 0.5 * dt], count), np.concatenate([lanes, lanes]))
-        workspace = both.reshape(self.system.rows, 2, count).swapaxes(0, 1)
-        return list(blocks_of(self._tabulate(_tabulated(self.spec), lanes), workspace, width))
+    def _blocks(self, dt: float, lanes: Array) -> list[Block]:
+        asked, count = lanes.tobytes(), lanes.shape[0]
+        ready = self._last.get(asked, {})
+        if dt not in ready:
+            both = self._fill(self.system.rows, np.repeat([dt, 0.5 * dt], count), np.concatenate([lanes, lanes]))
+            workspace = both.reshape(self.system.rows, 2, count).swapaxes(0, 1)
+            tables = self._tabulate(_tabulated(self.spec), lanes)
+            ready = {**ready, dt: list(blocks_of(tables, workspace, WIDTH))}
+            self._keep_last(asked, ready)
+        return ready[dt]
 
     def _lanes(self, run: SystemRows, values: Array | None) -> Array:
         return with_constants(
