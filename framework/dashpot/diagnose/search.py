@@ -67,11 +67,21 @@ def moves_from(
 
 @dataclass(frozen=True, eq=False)
 class _Projected:
-    """Scores (m,) and their Gram matrix (m, m) of the candidates' columns, everything in a structure projected out."""
+    """Scores ``right`` (m,) and squares ``sizes`` (m,) of the candidates' columns, everything in a structure projected
+    out: of their Gram matrix (m, m) the ``across`` (k, m) of ``solved`` (k, m) columns. A square is ``nats``.
+    """
 
     right: Array
-    gram: Array
+    sizes: Array
     nats: float
+    whole: Array
+    across: Array
+    solved: Array
+
+    def gram(self, at: NDArray[np.intp]) -> Array:
+        """The Gram matrix (n, n) of some columns."""
+        left: Array = self.whole[at[:, None], at] - self.across[:, at].T @ self.solved[:, at]
+        return left
 
 
 def additions(scores: Scores, structure: Structure) -> list[Added]:
@@ -135,12 +145,15 @@ def _project(scores: Scores, structure: Structure) -> _Projected:
     first = scores.look.layout.first_candidate
     gram, bank = scores.gram(structure.dropped), slice(first, None)
     solve = np.linalg.solve(steadied(gram, at), gram[at])
-    left = gram[bank, bank] - gram[bank][:, at] @ solve[:, bank]
-    right = gram[bank] @ target - solve[:, bank].T @ (gram[at] @ target)
-    square = float(target @ gram @ target - (solve @ target) @ (gram[at] @ target))
+    told = gram[at] @ target
+    across, whole = gram[at, bank], gram[bank, bank]
+    solved = np.asarray(solve[:, bank], dtype=float)
+    sizes = np.diag(whole) - np.einsum("kc,kc->c", across, solved)
+    square = float(target @ gram @ target - (solve @ target) @ told)
     samples = float(scores.look.samples.sum())
     # per unit of the residual, so that a gain in squares is one in nats
-    return _Projected(right, left, 0.5 * samples / max(square, 1e-300))
+    nats = 0.5 * samples / max(square, 1e-300)
+    return _Projected(gram[bank] @ target - solved.T @ told, sizes, nats, whole, across, solved)
 
 
 def _places(candidate: Candidate, left: _Projected, open_to: Sequence[bool]) -> tuple[float, tuple[int, ...]] | None:
@@ -148,19 +161,26 @@ def _places(candidate: Candidate, left: _Projected, open_to: Sequence[bool]) -> 
     of chance.
     """
     suspect, own = candidate.suspect, np.arange(candidate.columns.start, candidate.columns.stop)
-    alive = np.flatnonzero((np.diag(left.gram)[own] > LEFT) & open_to)
+    right, sizes = left.right[own], left.sizes[own]
+    alive = np.flatnonzero((sizes > LEFT) & open_to)
     if not alive.size:
         return None
     if suspect.joint:
-        return _jointly(own, alive, left, bool(suspect.sign))
-    chosen: list[int] = []
-    best: tuple[float, tuple[int, ...]] | None = None
-    matrix, right = left.gram[own[:, None], own], left.right[own]
+        return _jointly(left.gram(own[alive]), right[alive], alive, left.nats, bool(suspect.sign))
+    strengths = right[alive] / sizes[alive]
+    alone = strengths * right[alive]
+    if suspect.sign:
+        alone[strengths < 0.0] = -np.inf
+    chosen = [int(alive[np.argmax(alone)])]
+    best = float(alone.max()) * left.nats - (1 + suspect.unknowns), tuple(chosen)
+    if best[0] <= 0.0:
+        return None
+    matrix = left.gram(own) if suspect.most > 1 else np.empty((0, 0))
     while len(chosen) < min(suspect.most, alive.size):
         gains = _gains(matrix, right, chosen, bool(suspect.sign))
         j = int(alive[np.argmax(gains[alive])])
         nats = float(gains[j]) * left.nats - (len(chosen) + 1) * (1 + suspect.unknowns)
-        if nats <= (best[0] if best else 0.0):
+        if nats <= best[0]:
             break
         chosen.append(j)
         best = nats, tuple(chosen)
@@ -168,12 +188,12 @@ def _places(candidate: Candidate, left: _Projected, open_to: Sequence[bool]) -> 
 
 
 def _jointly(
-    own: NDArray[np.intp], alive: NDArray[np.intp], left: _Projected, positive: bool
+    gram: Array, right: Array, alive: NDArray[np.intp], nats: float, positive: bool
 ) -> tuple[float, tuple[int, ...]] | None:
+    """Of the places ``alive`` all that explain something together, and what they do."""
     from scipy.optimize import nnls
 
-    at = own[alive]
-    matrix, right = left.gram[np.ix_(at, at)] + 1e-7 * np.eye(at.size), left.right[at]
+    matrix = gram + 1e-7 * np.eye(alive.size)
     if positive:
         sizes, axes = np.linalg.eigh(matrix)
         root = np.sqrt(np.maximum(sizes, 1e-9 * sizes[-1]))
@@ -182,7 +202,7 @@ def _jointly(
         strengths = np.linalg.solve(matrix, right)
     kept = alive[strengths != 0.0]
     gain = 2.0 * right @ strengths - strengths @ matrix @ strengths
-    return (gain * left.nats - kept.size, tuple(int(j) for j in kept)) if kept.size else None
+    return (gain * nats - kept.size, tuple(int(j) for j in kept)) if kept.size else None
 
 
 def _gains(matrix: Array, right: Array, chosen: list[int], positive: bool) -> Array:
