@@ -70,6 +70,8 @@ class Objective:
         self.steps_shelf: Shelf[SystemRows] = Shelf(TIMES_FOR_STEPS)
         self.moved: LastMoved[Team] = LastMoved(len(self.teams))
         self.scratch = Scratch()
+        if isinstance(network, CompiledNetwork):
+            network.expect(self.shelf.kept(network.outlook))
         self.total = sum(
             whitening.kept(run.name, run.samples) if whitening is not None else run.samples for run in self.runs
         )
@@ -96,7 +98,10 @@ class Objective:
     @cached_property
     def parts(self) -> Parts:
         """The branches of the network alone."""
-        return take_apart(self.network.spec)
+        found = take_apart(self.network.spec)
+        for part in found.members:
+            part.network.expect(self.shelf.kept(part.network.outlook))
+        return found
 
     def linearise(self, values: Array, moves: Array, reduce: Callable[[int, Array], Result]) -> Iterator[Result]:
         """What ``reduce`` makes of one run after the other, from its number and its rows (1 + k, values).

@@ -48,6 +48,11 @@ class Shelf(Generic[Kept]):
                 self._keep(kind, key, found)
         return found
 
+    def kept(self, kind: Hashable) -> list[Kept]:
+        """What is kept of a kind."""
+        with self._lock:
+            return list(self._kinds.get(kind, {}).values())
+
     def _keep(self, kind: Hashable, key: Hashable, made: Kept) -> None:
         own = self._kinds.setdefault(kind, {})
         self._bytes[kind] = sum(one.nbytes for one in own.values())

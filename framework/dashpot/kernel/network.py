@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Sequence
+from collections.abc import Hashable, Iterable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import islice
 from typing import Any
 
 import numpy as np
@@ -137,6 +138,10 @@ class CompiledNetwork(Compiled[Rows]):
             if len(self._seen) < MAKES:
                 self._seen[run.constants] = None
         return found[run.constants]
+
+    def expect(self, runs: Iterable[Rows]) -> None:
+        """Make lanes ready for the constants of these runs, too, when one of them is simulated."""
+        self._seen.update(dict.fromkeys(islice((run.constants for run in runs), MAKES)))
 
     @cached_property
     def _seen(self) -> dict[Constants, None]:
