@@ -18,8 +18,8 @@ from dashpot.kernel.compiler.compile import recipe_of
 from dashpot.kernel.curves import cubic_coefficients
 from dashpot.kernel.following import moved
 from dashpot.kernel.ir.program import Program
-from dashpot.kernel.observe import Observation, read_observation
-from dashpot.kernel.settings import with_settings
+from dashpot.kernel.observe import PLAIN, Observation, read_observation
+from dashpot.kernel.settings import with_channel
 from dashpot.model.network import Characteristic, NetworkSpec
 
 Array = NDArray[np.float64]
@@ -61,10 +61,12 @@ class Compiled(ABC, Generic[Prepared]):
 
     def observation(self, values: Array, excitation: Excitation | None = None) -> Observation:
         """How the load cells see each lane in a run; gain and offset may follow channels of it, sample by sample."""
+        if not self.spec.measurement:
+            return PLAIN
         lanes = np.atleast_2d(values)
-        if excitation is None or not self.spec.measurement:
+        if excitation is None:
             return read_observation(self.paths, lanes)
-        seen = read_observation(self.paths, with_settings(self.spec, lanes, excitation.settings))
+        seen = read_observation(self.paths, with_channel(self.spec, lanes, excitation.settings))
         return replace(seen, **dict(self._moving_channel(lanes, excitation))) if excitation.channels else seen
 
     def _moving_channel(self, lanes: Array, excitation: Excitation) -> Iterator[tuple[str, Array]]:

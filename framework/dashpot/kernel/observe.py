@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import dataclass, field
-from functools import partial
+from functools import cached_property, partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,7 +38,7 @@ class Observation:
     cosine: Array = field(default_factory=lambda: np.zeros(1))
     sine: Array = field(default_factory=lambda: np.zeros(1))
 
-    @property
+    @cached_property
     def plain(self) -> bool:
         """Whether the channel shows the force as it is."""
         return not (
@@ -88,6 +88,9 @@ class Observation:
         found = np.concatenate([shown, self.gain[0] * late])
         found[0, beyond], found[1:, beyond] = self.largest[0], 0.0
         return found
+
+
+PLAIN = Observation(np.ones(1), np.zeros(1), np.zeros(1))
 
 
 def _by_lane(numbers: Array) -> Array:

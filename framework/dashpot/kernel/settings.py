@@ -31,6 +31,11 @@ def with_constants(spec: NetworkSpec, lanes: Array, settings: Mapping[str, float
     return _with_settings(spec, lanes, settings, lambda slot: not follows(slot, spec))
 
 
+def with_channel(spec: NetworkSpec, lanes: Array, settings: Mapping[str, float]) -> Array:
+    """The same, but only the numbers of the force channel are those of the run."""
+    return _with_settings(spec, lanes, settings, lambda slot: slot.path.startswith("measurement."))
+
+
 def _with_settings(
     spec: NetworkSpec, lanes: Array, settings: Mapping[str, float], counts: Callable[[Slot], bool]
 ) -> Array:
