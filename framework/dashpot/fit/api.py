@@ -10,9 +10,9 @@
 from __future__ import annotations
 
 import itertools
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -52,7 +52,7 @@ from dashpot.fit.thinned import thinned
 from dashpot.fit.uncertainty import assess_uncertainty
 from dashpot.kernel.network import compile_network
 from dashpot.kernel.settings import require_settings
-from dashpot.kernel.workers import finished, result_of, threads
+from dashpot.kernel.workers import finished, forked_as_done, forks, result_of, threads
 from dashpot.model.network import NetworkSpec, Slot
 from dashpot.text.problem import InputError, Place, Problem
 
@@ -178,24 +178,38 @@ def fit_each(
 ) -> list[FitResult | InputError]:
     """What each network comes to on a dataset made ready, one for all or one each, or why it cannot be fitted.
 
-    On a pool or a cluster ``progress`` hears of a network when it is fitted.
+    With several jobs networks are fitted side by side, each on one thread, in processes of this machine, on a pool or
+    on a cluster; there ``progress`` hears of a network when it is fitted.
     """
     settings = [setting] if isinstance(setting, Setting) else list(setting)
     each = [(spec, number % len(settings)) for number, spec in enumerate(specs)]
-    shared = (settings, method, seed, threads(jobs), progress if isinstance(jobs, int) else silent)
+    elsewhere = not isinstance(jobs, int) or forks(jobs, len(each)) > 1
+    shared = (settings, method, seed, 1 if elsewhere else threads(jobs), silent if elsewhere else progress)
     found: dict[int, FitResult | InputError] = {}
-    for number, future in finished(_fitted, shared, each, jobs):
-        found[number] = fit = result_of(future)
-        if not isinstance(jobs, int):
+    for number, fit in _fits(shared, each, jobs):
+        if elsewhere:
             progress(f"{specs[number].name}: fitted", 1.0)
-            if isinstance(fit, FitResult):  # one dataset for all, not a copy with each
-                found[number] = replace(fit, dataset=settings[each[number][1]].dataset)
+        # one dataset for all, not a copy with each
+        whole = settings[each[number][1]].dataset
+        found[number] = replace(fit, dataset=whole) if isinstance(fit, FitResult) else fit
     return [found[number] for number in range(len(specs))]
 
 
-def _fitted(
-    shared: tuple[Sequence[Setting], Optimizer | None, int, int, Progress], one: tuple[NetworkSpec, int]
-) -> FitResult | InputError:
+_Shared = tuple[Sequence[Setting], Optimizer | None, int, int, Progress]
+_One = tuple[NetworkSpec, int]  # a network, and the number of its setting
+
+
+def _fits(shared: _Shared, each: Sequence[_One], jobs: Jobs) -> Iterator[tuple[int, FitResult | InputError]]:
+    """The number of each fit and what it came to, as they are done."""
+    if not isinstance(jobs, int):
+        yield from ((number, result_of(future)) for number, future in finished(_fitted, shared, each, jobs))
+        return
+    elements = {leaf.element for spec, _ in each for leaf in spec.leaves()}  # may be of no module
+    known = [*elements, *(setting.dataset for setting in shared[0])]
+    yield from forked_as_done(partial(_fitted, shared), each, jobs, known)
+
+
+def _fitted(shared: _Shared, one: _One) -> FitResult | InputError:
     (settings, method, seed, jobs, progress), (spec, which) = shared, one
     try:
         return fit_prepared(spec, settings[which], method, seed, jobs, progress)

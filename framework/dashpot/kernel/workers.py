@@ -18,6 +18,7 @@ from concurrent.futures import CancelledError, Executor, Future, ThreadPoolExecu
 from contextlib import contextmanager
 from functools import cache
 from itertools import islice
+from operator import itemgetter
 from threading import local
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -96,20 +97,37 @@ if hasattr(os, "register_at_fork"):  # threads do not come along
     os.register_at_fork(after_in_child=_pool.cache_clear)
 
 
+def forks(jobs: int, pieces: int) -> int:
+    """In how many copies of this process so many pieces of work are done, no more than ``jobs`` at once.
+
+    On systems that cannot copy a process whose libraries have threads, and within a thread or a copy, it is one.
+    """
+    return min(jobs, pieces) if sys.platform == "linux" and not _within.thread else 1
+
+
 def forked(
     work: Callable[[Item], Result], items: Iterable[Item], jobs: int, shared: Sequence[object] = ()
 ) -> list[Result]:
-    """What ``work`` makes of each item, in their order, in no more than ``jobs`` processes at once.
+    """What ``work`` makes of each item, in their order, in ``forks`` of this process.
 
-    Each process is a copy of this one, so that ``work`` and the items may be anything. What they come to is pickled on
-    its way back; what is ``shared`` is not, but is the same object here. What else they change stays with them. On
-    systems that cannot copy a process whose libraries have threads all is done here.
+    Each is a copy of this process, so that ``work`` and the items may be anything. What they come to is pickled on its
+    way back; what is ``shared`` is not, but is the same object here. What else they change stays with them.
     """
+    return [found for _, found in sorted(forked_as_done(work, items, jobs, shared), key=itemgetter(0))]
+
+
+def forked_as_done(
+    work: Callable[[Item], Result], items: Iterable[Item], jobs: int, shared: Sequence[object] = ()
+) -> Iterator[tuple[int, Result]]:
+    """The same as they are done, each with the number of its item."""
     each = list(items)
-    if min(jobs, len(each)) < 2 or sys.platform != "linux" or _within.thread:
-        return [work(item) for item in each]
-    with _ending(min(jobs, len(each)), "fork", _inherit, (work, each, shared)) as pool:
-        return [_Unpacker(found, shared).load() for found in pool.map(_packed_answer, range(len(each)))]
+    if (count := forks(jobs, len(each))) < 2:
+        yield from enumerate(map(work, each))
+        return
+    with _ending(count, "fork", _inherit, (work, each, shared)) as pool:
+        numbers = {pool.submit(_packed_answer, number): number for number in range(len(each))}
+        for future in as_completed(numbers):
+            yield numbers[future], _Unpacker(future.result(), shared).load()
 
 
 _inherited: list[Any] = []  # in a fork: what to do, with what, and what is shared

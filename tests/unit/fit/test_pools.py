@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import sys
+
 import numpy as np
 import pytest
 from unit.pools import two_workers
@@ -10,12 +12,15 @@ import dashpot as dp
 from dashpot import load_registry
 from dashpot.data.dataset import Dataset
 from dashpot.data.run import Run
+from dashpot.fit.api import fit_each, prepare, silent
 from dashpot.fit.joint.reading import read_joint
 from dashpot.fit.joint.run import fit_joint
 from dashpot.fit.study.reading import read_study
 from dashpot.fit.study.run import run_study
+from dashpot.model.reading import read_network
 from dashpot.notebook.progress import Cancelled
 from dashpot.study.study import study_content
+from dashpot_elements.spring import Spring
 
 ONE = "rubber: {element: spring, stiffness: {start: 150 N/mm}}"
 TWO = ONE + "\n  oil: {element: damper, damping: {start: 900 N*s/m}}"
@@ -108,3 +113,18 @@ def test_a_fit_elsewhere_is_told_of_and_can_be_cancelled(pool, folder, data):
     assert told == ["two: fitted"]
     with pytest.raises(Cancelled):
         dp.fit(folder / "two.yaml", data, jobs=pool, cancel=lambda: True)
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="elsewhere networks are fitted one after the other")
+def test_networks_are_fitted_side_by_side_on_one_dataset(folder, data):
+    class Stiff(Spring):
+        """An element of no module: it cannot be pickled by its name."""
+
+    setting, told = prepare(data, 0), []
+    made = {word: Stiff if word == "spring" else element for word, element in load_registry().elements.items()}
+    specs = [read_network(folder / f"{name}.yaml", made) for name in ("two", "one", "three")]
+    alone = fit_each(specs, setting, None, 0, 1, silent)
+    beside = fit_each(specs, setting, None, 0, 2, lambda stage, *_: told.append(stage))
+    assert [fit.as_dict() for fit in beside] == [fit.as_dict() for fit in alone]
+    assert sorted(told) == ["one: fitted", "three: fitted", "two: fitted"]
+    assert all(fit.dataset is setting.dataset and next(fit.fitted.root.leaves()).element is Stiff for fit in beside)
