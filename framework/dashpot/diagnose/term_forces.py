@@ -19,6 +19,7 @@ from dashpot.fit.objective import Objective
 from dashpot.kernel.network import CompiledNetwork, compile_network
 from dashpot.kernel.workers import spread
 from dashpot.model.network import Branch, Group, NetworkSpec
+from dashpot.model.topology import topology_of
 
 Array = NDArray[np.float64]
 
@@ -83,7 +84,7 @@ class _Whole:
 def _is_sum(network: NetworkSpec) -> bool:
     """Whether the force is the sum over branches each of which has its numbers itself."""
     own = not any(one.shares for one in network.leaves()) and not any(slot.value.expression for slot in network.slots())
-    return own and network.root.kind == "parallel" and not network.joints
+    return own and network.root.kind == "parallel" and topology_of(network).parallel
 
 
 def _compiled(parallel: NetworkSpec) -> CompiledNetwork:

@@ -13,10 +13,11 @@ from dashpot.diagnose.term import Model, Term
 from dashpot.diagnose.term import extended as extended_by
 from dashpot.diagnose.term_forces import term_forces
 from dashpot.fit.api import measure_errors, prepare
-from dashpot.fit.coordinates import search_coordinates
+from dashpot.fit.coordinates import search_coordinates, with_point
 from dashpot.fit.ranges import with_ranges
 from dashpot.fit.scored import warm_up
 from dashpot.model.reading import parse_network
+from dashpot.text.problem import InputError
 
 NOISE = 20.0  # N
 SUSPECTS = {
@@ -97,3 +98,57 @@ def test_what_a_term_adds_is_what_the_network_without_it_lacks(name, channel, da
     assert set(found) == set(whole)
     for run, force in found.items():
         assert force == pytest.approx(whole[run] - rest[run], abs=1e-9 * np.abs(whole[run]).max())
+
+
+def modelled(text, terms, data):
+    """A refitter on the data, and a network with some terms one after the other as its model."""
+    base = declared = parse_network(text, REGISTRY.elements)
+    owned = []
+    for term in terms:
+        declared, brought = extended_by(declared, term, REGISTRY.elements)
+        owned.append(brought)
+    dataset = read_dataset(data, {word: reader() for word, reader in REGISTRY.formats.items()})
+    refitter = Refitter([*prepare(dataset, 0).scored.values()], REGISTRY.elements)
+    ranged = with_ranges(declared, refitter.sizes)
+    coordinates = search_coordinates(ranged)
+    fitted = with_point(ranged, coordinates, coordinates.start)
+    return refitter, Model(base, tuple(terms), declared, tuple(owned), fitted, coordinates, coordinates.start)
+
+
+def assert_what_each_adds_is_what_the_rest_lacks(refitter, model):
+    whole = refitter.forces(model.fitted)
+    for number, found in enumerate(term_forces(refitter, model)):
+        rest = refitter.forces(refitter.without(model, [term for k, term in enumerate(model.terms) if k != number]))
+        for run, force in found.items():
+            assert force == pytest.approx(whole[run] - rest[run], abs=1e-9 * np.abs(whole[run]).max())
+
+
+@pytest.mark.parametrize("name", ONE_OF_EACH)
+@pytest.mark.parametrize("other", ["friction", "lift_off", "delay", "setting_dependence"])
+def test_what_a_term_adds_beside_another_one(name, other, data):
+    beside = next(one for one in ONE_OF_EACH if one.partition("-")[0] == other)
+    terms = [
+        Term(REGISTRY.causes[k.partition("-")[0]], SUSPECTS[k], tuple(usual_atoms(SUSPECTS[k]))) for k in (beside, name)
+    ]
+    try:
+        refitter, model = modelled(NETWORK, terms, data)
+    except InputError:
+        pytest.skip("they cannot be written beside each other")
+    if all(model.owned):  # else one has taken the place of the other
+        assert_what_each_adds_is_what_the_rest_lacks(refitter, model)
+
+
+@pytest.mark.parametrize("numbers", [("friction.limit",), ("stiffness.stiffness", "friction.limit")])
+def test_what_a_dependence_of_another_term_adds(numbers, data):
+    """Where a branch goes, a dependence that moves its numbers and others as well is not there any more, either."""
+    friction = next(one for one in SUSPECTS if one.startswith("friction-"))
+    first = Term(REGISTRY.causes["friction"], SUSPECTS[friction], tuple(usual_atoms(SUSPECTS[friction])))
+    network = extended_by(parse_network(NETWORK, REGISTRY.elements), first, REGISTRY.elements)[0]
+    cause = REGISTRY.causes["setting_dependence"]
+    suspect = next(
+        one for one in cause().suspects(VIEW, network) if set(numbers) <= {str(place) for place in one.each_dependent}
+    )
+    at = [suspect.each_dependent.index(number) for number in numbers]
+    second = Term(cause, suspect, tuple((0.3, suspect.grid[place]) for place in at))
+    refitter, model = modelled(NETWORK, [first, second], data)
+    assert_what_each_adds_is_what_the_rest_lacks(refitter, model)
