@@ -30,6 +30,7 @@ if TYPE_CHECKING:
     from dashpot.kernel.workers import Jobs
 
 Array = NDArray[np.float64]
+WORTHWHILE = 2e5  # lanes times samples of a run, a millisecond and more
 Result = TypeVar("Result")
 
 
@@ -116,8 +117,13 @@ class Objective:
         def reduced(team: Team) -> list[Result]:
             return [reduce(number, self._weighed(number, rows)) for number, rows in rows_of(team)]
 
-        for found in streamed(reduced, self.teams, self.jobs):
+        for found in streamed(reduced, self.teams, self._threads(1 + len(moves))):
             yield from found
+
+    def _threads(self, lanes: int) -> int:
+        """How many threads are worth it: of short runs Python does most, for one thread at a time."""
+        long = isinstance(self.network, CompiledSystem) or lanes * self.total >= WORTHWHILE * len(self.runs)
+        return self.jobs if long else 1
 
     def _moved_by_branches(
         self, values: Array, moves: Array, lanes: Sequence[MovedLanes], team: Team
@@ -158,7 +164,7 @@ class Objective:
             for number, force in self._forces(team, values):
                 found[number] = force
 
-        spread(fill, self.teams, jobs=self.jobs)
+        spread(fill, self.teams, self._threads(len(values)))
         return found
 
     def misfits(self, values: Array) -> Array:
@@ -181,7 +187,7 @@ class Objective:
                 for run in (self.runs[number],)
             ]
 
-        found = dict(pair for some in spread(fill, self.teams, jobs=self.jobs) for pair in some)
+        found = dict(pair for some in spread(fill, self.teams, self._threads(len(values))) for pair in some)
         return [found[number] for number in range(len(self.runs))]
 
     def losses(self, values: Array) -> Array:
@@ -209,7 +215,7 @@ class Objective:
         def fill(team: Team) -> None:
             found[list(team)] = self._scored(team, values)
 
-        spread(fill, self.teams, jobs=self.jobs)
+        spread(fill, self.teams, self._threads(len(values)))
         return found
 
     def _scored(self, team: Team, values: Array) -> Array:
