@@ -162,9 +162,15 @@ class Session:
             yield client
 
     def run(self, work: Callable[..., Result], subject: Any, dataset: Dataset) -> Result:
-        """Do the work of a verb on a network (or several) and a dataset, showing its progress."""
+        """Do the work of a verb on a network (or several) and a dataset, showing its progress.
+
+        Several networks are fitted in copies of this process; where it cannot be copied, in processes of their own.
+        """
+        from dashpot.kernel.workers import forks
+
         parts = len(subject) if isinstance(subject, list) else 1
-        with self.workers(parts=parts) as jobs, self.watch("compiling", parts) as progress:
+        apart = 1 if forks(self.switches.jobs, parts) > 1 else parts
+        with self.workers(parts=apart) as jobs, self.watch("compiling", parts) as progress:
             return work(
                 subject,
                 dataset,

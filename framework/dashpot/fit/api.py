@@ -182,15 +182,18 @@ def fit_each(
     on a cluster; there ``progress`` hears of a network when it is fitted.
     """
     settings = [setting] if isinstance(setting, Setting) else list(setting)
-    each = [(spec, number % len(settings)) for number, spec in enumerate(specs)]
+    many = [sum(slot.value.searched for slot in spec.slots()) for spec in specs]
+    order = sorted(range(len(specs)), key=lambda number: -many[number])  # none that takes long is left to the end alone
+    each = [(specs[number], number % len(settings)) for number in order]
     elsewhere = not isinstance(jobs, int) or forks(jobs, len(each)) > 1
     shared = (settings, method, seed, 1 if elsewhere else threads(jobs), silent if elsewhere else progress)
     found: dict[int, FitResult | InputError] = {}
-    for number, fit in _fits(shared, each, jobs):
+    for place, fit in _fits(shared, each, jobs):
+        number = order[place]
         if elsewhere:
             progress(f"{specs[number].name}: fitted", 1.0)
         # one dataset for all, not a copy with each
-        whole = settings[each[number][1]].dataset
+        whole = settings[number % len(settings)].dataset
         found[number] = replace(fit, dataset=whole) if isinstance(fit, FitResult) else fit
     return [found[number] for number in range(len(specs))]
 
