@@ -136,6 +136,8 @@ def look_at(
     else:
         candidates, unavailable = list(known), ()
     columns = linearised(refitter, model, view, inside, candidates, [doubt.fault for doubt in doubted])
+    if known is None:
+        refitter.shelf.clear()  # the columns of all candidates need the memory
     layout, free, first = columns.layout, columns.free, columns.first
     precision = _known_beforehand(free, doubted, len(runs))
     learnt = noise is None

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
     from dashpot.kernel.workers import Jobs
 
 Array = NDArray[np.float64]
-WORTHWHILE = 2e5  # lanes times samples of a run, a millisecond and more
+WORTHWHILE = 3e4  # lanes times samples of a run: a tenth of a millisecond in the kernel
 Result = TypeVar("Result")
 
 

@@ -53,6 +53,12 @@ class Shelf(Generic[Kept]):
         with self._lock:
             return list(self._kinds.get(kind, {}).values())
 
+    def clear(self) -> None:
+        """Keep nothing any more."""
+        with self._lock:
+            self._kinds.clear()
+            self._bytes.clear()
+
     def _keep(self, kind: Hashable, key: Hashable, made: Kept) -> None:
         own = self._kinds.setdefault(kind, {})
         self._bytes[kind] = sum(one.nbytes for one in own.values())
