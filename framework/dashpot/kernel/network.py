@@ -67,8 +67,9 @@ class CompiledNetwork(Compiled[Rows]):
         """All that ``prepare`` asks of a network: whatever its numbers, one of the same outlook sees a run alike."""
         looked_up = tuple((look.curve, self.curves[look.curve].at) for look in self.program.lookups)
         told = tuple(
-            (slot.value.setting, slot.value.over and (slot.value.over.word, slot.value.over.way))
+            (slot.value.setting, over and (over.word, over.way, over.channel))
             for _, slot in self.spec.told_by_runs
+            for over in (slot.value.over,)
         )
         return self.program, looked_up, told
 
@@ -129,11 +130,9 @@ class CompiledNetwork(Compiled[Rows]):
         asked = width, lanes.tobytes()
         found = self._last.get(asked, {})
         if run.constants not in found:
-            makes = [
-                run.constants,
-                *(other for other in [*self._seen] if other not in found and other != run.constants),
-            ]
-            found = found | dict(zip(makes, self._fresh_blocks(makes, lanes, width), strict=True))
+            makes = [run.constants, *(one for one in [*self._seen] if one not in found and one != run.constants)]
+            fresh = zip(makes, self._fresh_blocks(makes, lanes, width), strict=True)
+            found = dict([*list(found.items())[-MAKES:], *fresh])
             self._keep_last(asked, found)
             if len(self._seen) < MAKES:
                 self._seen[run.constants] = None
