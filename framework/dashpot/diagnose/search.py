@@ -68,7 +68,10 @@ def moves_from(
 @dataclass(frozen=True, eq=False)
 class _Projected:
     """Scores ``right`` (m,) and squares ``sizes`` (m,) of the candidates' columns, everything in a structure projected
-    out: of their Gram matrix (m, m) the ``across`` (k, m) of ``solved`` (k, m) columns. A square is ``nats``.
+    out. A unit of the square of the residual is worth ``nats``.
+
+    ``whole`` (m, m) is the Gram matrix of the columns before that, ``across`` (k, m) their products with the k columns
+    of the structure, and ``solved`` (k, m) the strengths of these that take up one of each.
     """
 
     right: Array

@@ -17,7 +17,6 @@ from dashpot.diagnose.refit import Refitter
 from dashpot.diagnose.term import Model, without_term
 from dashpot.fit.objective import Objective
 from dashpot.kernel.network import CompiledNetwork, compile_network
-from dashpot.kernel.workers import spread
 from dashpot.model.network import Branch, Group, NetworkSpec
 from dashpot.model.topology import topology_of
 
@@ -77,8 +76,7 @@ class _Whole:
             return [np.zeros(run.drive.samples) for run in runs]
         network = _compiled(NetworkSpec(self.network.name, Group("", "parallel", tuple(members))))
         rows_of = partial(Objective(network, runs, shelf=self.refitter.shelf).rows_of, network)
-        each = range(len(runs))
-        return spread(lambda number: network.simulate(rows_of(number), network.start), each, self.refitter.jobs)
+        return [network.simulate(rows_of(number), network.start) for number in range(len(runs))]
 
 
 def _is_sum(network: NetworkSpec) -> bool:

@@ -178,8 +178,9 @@ def fit_each(
 ) -> list[FitResult | InputError]:
     """What each network comes to on a dataset made ready, one for all or one each, or why it cannot be fitted.
 
-    With several jobs networks are fitted side by side, each on one thread, in processes of this machine, on a pool or
-    on a cluster; there ``progress`` hears of a network when it is fitted.
+    Networks are fitted side by side on a pool or a cluster, or, with several jobs, in copies of this process, each on
+    one thread; there ``progress`` hears of a network when it is fitted. A process that cannot be copied fits one after
+    the other, each on as many threads as there are jobs.
     """
     settings = [setting] if isinstance(setting, Setting) else list(setting)
     many = [sum(slot.value.searched for slot in spec.slots()) for spec in specs]

@@ -72,7 +72,7 @@ class Objective:
         self.moved: LastMoved[Team] = LastMoved(len(self.teams))
         self.scratch = Scratch()
         if isinstance(network, CompiledNetwork):
-            network.expect(self.shelf.kept(network.outlook))
+            network.expect(self.shelf.kept(network.prepared_by))
         self.total = sum(
             whitening.kept(run.name, run.samples) if whitening is not None else run.samples for run in self.runs
         )
@@ -94,14 +94,14 @@ class Objective:
     def rows_of(self, network: CompiledNetwork, number: int) -> Rows:
         """What is prepared of a run for the network, or for one of its branches alone."""
         run = self.runs[number]
-        return self.shelf(network.outlook, run, lambda: network.prepare(run.excitation))
+        return self.shelf(network.prepared_by, run, lambda: network.prepare(run.excitation))
 
     @cached_property
     def parts(self) -> Parts:
         """The branches of the network alone."""
         found = take_apart(self.network.spec)
         for part in found.members:
-            part.network.expect(self.shelf.kept(part.network.outlook))
+            part.network.expect(self.shelf.kept(part.network.prepared_by))
         return found
 
     def linearise(self, values: Array, moves: Array, reduce: Callable[[int, Array], Result]) -> Iterator[Result]:

@@ -63,8 +63,8 @@ class CompiledNetwork(Compiled[Rows]):
         return {}
 
     @cached_property
-    def outlook(self) -> Hashable:
-        """All that ``prepare`` asks of a network: whatever its numbers, one of the same outlook sees a run alike."""
+    def prepared_by(self) -> Hashable:
+        """All of the network that ``prepare`` depends on: where it is equal, what is prepared of a run is the same."""
         looked_up = tuple((look.curve, self.curves[look.curve].at) for look in self.program.lookups)
         told = tuple(
             (slot.value.setting, over and (over.word, over.way, over.channel))
