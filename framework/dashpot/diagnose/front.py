@@ -124,7 +124,8 @@ class Front:
         gram += moves.T @ (precision[:, None] * moves)
         numbers = range(1, 1 + self.tangents)
         gram[numbers, numbers] += 1.0
-        scale = np.sqrt(np.maximum(squares, 1e-300))
+        # below that share of a column what the others leave of it is rounding
+        scale = np.sqrt(np.maximum(np.maximum(squares, RIDGE * np.diag(total)[first:]), 1e-300))
         gram /= np.outer(scale, scale)
         base = self.base_moves[:, first:] - self.base_moves[:, :first] @ moves
         columns = np.arange(len(total))
@@ -168,7 +169,8 @@ def front_of(
     first = free + known.size
     moves, squares = in_front(whole, np.zeros(free)), np.diag(whole).copy()
     squares[free:] -= np.sum(whole[:free, free:] * moves, axis=0)
-    squares[squares < RIDGE * np.diag(whole)] = 0.0  # what the base makes up for has no error of a form
+    made_up = squares < RIDGE * np.diag(whole)  # by the base, but for rounding
+    squares[made_up] = 0.0
     errors, precision, owners = form_errors(squares, first, layout, model, candidates)
     order = np.array([*range(first), *errors, *range(first, len(whole))], dtype=np.intp)
     owned = np.array([*[-1] * known.size, *owners], dtype=np.intp)  # faults are of no term
@@ -176,10 +178,12 @@ def front_of(
     total = whole[at]
     moves = moves[:, order[free:] - free]
     moves[:, first - free + len(errors)] *= known.size > 0
-    left = np.empty((len(grams), *(size - free for size in total.shape)), np.float32)
+    stays = ~made_up[order[free:]]
+    left = np.empty((len(grams), stays.size, stays.size), np.float32)
     for number in range(len(grams)):
-        left[number] = beside(grams.pop(0)[at], moves)
-    return Front(left, beside(total, moves), moves, np.append(known, precision), owned, layout.tangents)
+        left[number] = beside(grams.pop(0)[at], moves) * stays * stays[:, None]
+    whole = beside(total, moves) * stays * stays[:, None]
+    return Front(left, whole, moves, np.append(known, precision), owned, layout.tangents)
 
 
 def form_errors(

@@ -6,11 +6,13 @@ that are straight between samples. Its three numbers scatter log-normally about 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
+
+Runs = Sequence[tuple[float, float]]
 
 PATHS = ("rubber.stiffness", "slow.stiffness", "slow.relaxation_time")
 MEAN = np.log([220e3, 60e3, 0.02])
@@ -21,6 +23,7 @@ ROOM = 25.0  # degC at which the means are MEAN
 BATCH = 5
 NOISE = 2.0  # N
 TIME = np.arange(1200) / 600.0
+RUNS = ((1.0e-3, 20.0), (0.6e-3, 25.0), (1.4e-3, 15.0), (0.8e-3, 22.0))  # amplitude in m, highest frequency in Hz
 
 MODEL = """\
 format: dashpot-network/1
@@ -83,13 +86,15 @@ def draw_population(seed: int, count: int, faults: Mapping[int, Fault] = FAULTS)
     return Population(np.exp(logs), temperatures, {k: fault for k, fault in faults.items() if k < count})
 
 
-def write_population(folder: Path, population: Population, seed: int, campaign: str = CAMPAIGN) -> Path:
-    """The measured bushings as folders with a table; the path of the campaign file."""
+def write_population(
+    folder: Path, population: Population, seed: int, campaign: str = CAMPAIGN, runs: Runs = RUNS
+) -> Path:
+    """The bushings, measured in some ``runs``, as folders with a table; the path of the campaign file."""
     rng = np.random.default_rng([seed, 1])
     folder.mkdir(parents=True, exist_ok=True)
     lines = ["specimen,data,temperature,batch"]
     for k, (numbers, temperature) in enumerate(zip(population.numbers, population.temperatures, strict=True)):
-        _write_bushing(folder / f"b{k:02d}", numbers, population.faults.get(k, Fault()), rng)
+        _write_bushing(folder / f"b{k:02d}", numbers, population.faults.get(k, Fault()), rng, runs)
         lines.append(f"b{k:02d},b{k:02d},{float(temperature)!r},B{k // BATCH + 1}")
     (folder / "specimens.csv").write_text("\n".join(lines) + "\n")
     (folder / "solid.yaml").write_text(MODEL)
@@ -107,10 +112,10 @@ def force_of(x: np.ndarray, dt: float, k: float, k1: float, relaxation: float) -
     return k * x + branch
 
 
-def _write_bushing(folder: Path, numbers: np.ndarray, fault: Fault, rng: np.random.Generator) -> None:
+def _write_bushing(folder: Path, numbers: np.ndarray, fault: Fault, rng: np.random.Generator, runs: Runs) -> None:
     folder.mkdir(exist_ok=True)
     text = DATASET
-    for number, (amplitude, top) in enumerate(((1.0e-3, 20.0), (0.6e-3, 25.0), (1.4e-3, 15.0), (0.8e-3, 22.0))):
+    for number, (amplitude, top) in enumerate(runs):
         phase = 2.0 * np.pi * (1.0 * TIME + (top - 1.0) * TIME**2 / (2.0 * TIME[-1]))
         x = amplitude * np.sin(phase)
         felt = np.sign(x) * np.maximum(np.abs(x) - 0.5 * fault.play, 0.0)

@@ -53,3 +53,28 @@ def test_a_form_may_err_by_a_share_of_what_the_term_adds_to_the_base():
     left = flat - flat @ np.linalg.pinv(flat[:base]) @ flat[:base]
     squares = np.sum(left**2, axis=1)
     assert made.precision == pytest.approx(2.0 * squares[forms] / (FORM_ERROR**2 * squares[term]), rel=1e-9)
+
+
+def test_a_column_that_the_base_makes_up_for_is_none_beside_anything():
+    """What rounding leaves of it may be of any size beside what is left of others."""
+    rng = np.random.default_rng(3)
+    base, terms, bank = 2, 1, 4
+    rows = rng.standard_normal((4, base + 1 + terms + bank, 50))
+    made_up = base + 1 + terms + np.arange(2)
+    rows[:, made_up] = 1e6 * np.einsum("cb,gbn->gcn", rng.standard_normal((2, base)), rows[:, :base])
+    candidates = candidates_of(["word"], bank)
+    model = SimpleNamespace(terms=[SimpleNamespace(name=candidates[0].name, changes={""})])
+    found = front_of(*grams_of(rows), np.zeros(0), base, Layout(0, terms, bank), model, candidates)
+    alone = front_of(
+        *grams_of(np.delete(rows, made_up, axis=1)),
+        np.zeros(0),
+        base,
+        Layout(0, terms, bank - 2),
+        model,
+        candidates_of(["word"], bank - 2),
+    )
+    for gone in (frozenset(), frozenset({0})):
+        beside, expected = found.beside(gone), alone.beside(gone)
+        others = np.delete(np.arange(beside.scale.size), made_up - base)
+        assert beside.gram[np.ix_(others, others)] == pytest.approx(expected.gram, rel=1e-6)
+        assert not beside.gram[made_up - base].any()
