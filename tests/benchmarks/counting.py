@@ -96,7 +96,7 @@ def works() -> dict[str, Counted]:
         task.score()
         found[name] = Counted(texts()[name], recorder.calls[0], task.units)
     recorder, whole = Recorder(), AxleTask.of(SECONDS, 8)
-    system = replace(axle(), native=recorder)
+    system = replace(axle(), native=lambda alone: recorder)
     zeros = np.zeros((2, whole.runs[0].excitation.samples))
     system.score(whole.runs, [zeros], [zeros + 1.0], whole.values)
     return {**found, AXLE: Counted(texts()[AXLE], recorder.calls[0], whole.units)}
