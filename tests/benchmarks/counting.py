@@ -29,7 +29,7 @@ from dashpot.kernel.targets.llvm.system_source import print_system
 REGISTERS = ("zmm", "ymm", "xmm")
 PROCESSOR, SECONDS = "haswell", 0.5
 # calls that are counted: so many that what Python does around them, which differs from start to start, hardly counts
-CALLS = {NETWORK: 200, f"{NETWORK}, 1 lane": 500, AXLE: 5}
+CALLS = {NETWORK: 1500, f"{NETWORK}, 1 lane": 4000, AXLE: 500}
 RUN = """
 import pickle, sys
 from dashpot.kernel.targets.llvm.native import load_native

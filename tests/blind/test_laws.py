@@ -243,7 +243,7 @@ CASES = [
     Case("setting_dependence", arrhenius, damping=0.0),
     Case("valve", blow_off),
     Case("valve", oil_column),
-    Case("valve", late_disc, sure=False),
+    Case("valve", late_disc),
     Case("compliant_damper", top_mount, damping=0.0),
     Case("compliant_damper", hose, HEAD + SPRING + ORIFICE, damping=0.0),
     Case("gas_spring", gas),
@@ -315,7 +315,7 @@ def test_the_law_is_the_cause_that_is_worth_most(tmp_path, seed, case):
     print(found["verdict"], told, found["rmse"])
     most = max(found["causes"], key=lambda cause: cause["gain"] or 0.0, default={"cause": "nothing"})
     assert most["cause"] == case.word
-    assert most["accepted"] or (not case.sure and found["verdict"] == "unexplained")
+    assert most["accepted"] if case.sure else found["verdict"] == "unexplained"
 
 
 def test_a_lip_that_grips_one_way_and_slides_at_once_is_told_by_its_two_limits(tmp_path, seed):

@@ -179,11 +179,11 @@ def front_of(
     moves = moves[:, order[free:] - free]
     moves[:, first - free + len(errors)] *= known.size > 0
     stays = ~made_up[order[free:]]
-    left = np.empty((len(grams), stays.size, stays.size), np.float32)
+    stay = np.outer(stays, stays)
+    left = np.empty((len(grams), *stay.shape), np.float32)
     for number in range(len(grams)):
-        left[number] = beside(grams.pop(0)[at], moves) * stays * stays[:, None]
-    whole = beside(total, moves) * stays * stays[:, None]
-    return Front(left, whole, moves, np.append(known, precision), owned, layout.tangents)
+        left[number] = beside(grams.pop(0)[at], moves) * stay
+    return Front(left, beside(total, moves) * stay, moves, np.append(known, precision), owned, layout.tangents)
 
 
 def form_errors(
