@@ -16,9 +16,9 @@ from dashpot.data.ends import one_force_each
 from dashpot.diagnose.channel import Accused, accuse
 from dashpot.diagnose.diagnosis import Diagnosis
 from dashpot.diagnose.findings import Removal
-from dashpot.diagnose.folds import FEWEST
-from dashpot.diagnose.leftover import look_for_leftover
-from dashpot.diagnose.look import Look, give_back_memory, look_at
+from dashpot.diagnose.folds import FEWEST, Folds
+from dashpot.diagnose.leftover import Leftover, look_for_leftover
+from dashpot.diagnose.look import Doubt, Look, give_back_memory, look_at
 from dashpot.diagnose.next_run import NextRun, next_run
 from dashpot.diagnose.odds import agreed_by_chance
 from dashpot.diagnose.polish import FEWER_STEPS, STEPS, known, polished
@@ -26,9 +26,18 @@ from dashpot.diagnose.pursue import Pursuer
 from dashpot.diagnose.pursuit import NAMED, Pursuit
 from dashpot.diagnose.refit import Kept, Refitter
 from dashpot.diagnose.repeats import begun_together, doubts, kinds_of, repeats_of
-from dashpot.diagnose.single_runs import corrected, faults_beside, floor_of_corrected, names_of, put_right
+from dashpot.diagnose.single_runs import (
+    corrected,
+    faults_beside,
+    floor_of_corrected,
+    names_of,
+    put_right,
+    runs_apart,
+    share_explained,
+    without_runs,
+)
 from dashpot.diagnose.table_rows import diagnosed, folds_with_rows, groups_of, records
-from dashpot.diagnose.term import first_model
+from dashpot.diagnose.term import Model, first_model
 from dashpot.diagnose.trials import Trials
 from dashpot.fit.algebra import single_threaded_algebra
 from dashpot.fit.api import Progress, Setting, fit_prepared, prepare, silent
@@ -88,10 +97,11 @@ def diagnose(
     noise = math.inf if setting.floor.value is None else setting.floor.value
     refitter = Refitter(begun_together(searched, groups), registry.elements, sensors, jobs, noise=noise)
     watch = partial(_watch, progress, spec.name)
-    pursuit, accused = find_causes(refitter, fit, causes, groups, setting, relevance, seed, watch)
+    pursuit, accused, apart = find_causes(refitter, fit, causes, groups, setting, relevance, seed, watch)
     give_back_memory()
     sound = {one.name: corrected(one, accused) for one in setting.train}
-    runs = list(sound.values())
+    alone = tuple(left.run for left in apart)
+    runs = [run for run in sound.values() if run.name not in alone]
     if accused:
         setting = replace(setting, floor=floor_of_corrected(setting, accused))
     model = pursuit.best.model
@@ -99,14 +109,17 @@ def diagnose(
     whole, *less = all_polished(pursuit, runs, jobs)
     final = known(whole, model, runs, together, jobs, setting.floor.value)
     removals = [Removal(one.name, found) for one, found in zip(pursuit.without, less, strict=True)]
-    last = put_right(refitter, accused)
-    leftover = look_for_leftover(last, replace(pursuit.look, model=model), repeats_of(last, groups))
+    last = without_runs(put_right(refitter, accused), alone)
+    leftover = (
+        apart[0] if apart else look_for_leftover(last, replace(pursuit.look, model=model), repeats_of(last, groups))
+    )
     return Diagnosis(
         setting=setting,
         triage=replace(triage, remarks=(*triage.remarks, *restarts, *remarks_on(spec, triage.dataset, pursuit))),
         fit=fit,
         pursuit=pursuit,
         accused=tuple(accused),
+        apart=alone,
         corrected=sound,
         final=final,
         removals=tuple(removals),
@@ -134,13 +147,14 @@ def find_causes(
     relevance: float,
     seed: int,
     watch: Callable[[int, int], None],
-) -> tuple[Pursuit, list[Accused]]:
-    """The best structure, and the faults of single training runs beside it.
+) -> tuple[Pursuit, list[Accused], tuple[Leftover, ...]]:
+    """The best structure, the faults of single training runs beside it, and what is left of runs that have it alone.
 
     The residual tests tell beforehand whether anything is missing. Where repeats of a run disagree, all runs may have
     that fault, as large as they differ, while causes are searched.
     Where runs are found at fault in the end, causes are searched again in the corrected runs, and the faults are found
-    again beside these causes; where others come back, once more.
+    again beside these causes; where others come back, once more. Runs that depart from the others, for which nothing
+    tells whether that is a fault or their conditions, take no part in a last search.
     """
     model = first_model(fit.declared, fit.fitted)
     if kept_curves(fit.fitted):
@@ -148,14 +162,17 @@ def find_causes(
         freed = polished(first_model(fit.declared, free_curves(fit.fitted)), refitter.runs, refitter.jobs)
         model = first_model(fit.declared, freed)
     folds, pairs = folds_with_rows(refitter.runs, groups), repeats_of(refitter, groups)
-    seen = look_at(refitter, model, (), folds)
-    refitter = replace(refitter, missing=look_for_leftover(refitter, seen, pairs).notable())
+    refitter, seen = certain_of_more(refitter, model, folds, pairs)
     recorded = replace(refitter, runs=records(refitter.runs), reduced=Kept())
     kinds = kinds_of(causes, seen)
     doubted = doubts(recorded, seen, kinds, groups) if recorded.runs else []
-    pursuit = Pursuer(Trials(refitter, folds, doubted), causes, relevance, seed, watch).run(model)
+
+    def search(refitter: Refitter, folds: Folds, model: Model, doubted: Sequence[Doubt] = ()) -> Pursuit:
+        return Pursuer(Trials(refitter, folds, doubted), causes, relevance, seed, watch).run(model)
+
+    pursuit = search(refitter, folds, model, doubted)
     if not recorded.runs:
-        return pursuit, []
+        return pursuit, [], ()
     measured = {run.name: run for run in setting.dataset.runs if run.name in setting.split.train}
 
     def accuse_beside(look: Look) -> list[Accused]:
@@ -164,12 +181,47 @@ def find_causes(
     accused = faults_beside(refitter, pursuit.look, pairs, accuse_beside)
     for _ in range(SEARCHES if accused else 0):
         again = put_right(refitter, accused)
-        start = again.fit(pursuit.best.model, pursuit.look.noise)
-        pursuit = Pursuer(Trials(again, folds), causes, relevance, seed, watch).run(start)
+        pursuit = search(again, folds, again.fit(pursuit.best.model, pursuit.look.noise))
         before, accused = accused, faults_beside(refitter, pursuit.look, pairs, accuse_beside)
         if names_of(before) == names_of(accused):
             break
-    return pursuit, accused
+    pursuit, apart = of_the_others(put_right(refitter, accused), model, pursuit, groups, search)
+    return pursuit, accused, apart
+
+
+def certain_of_more(
+    refitter: Refitter, model: Model, folds: Folds, pairs: Sequence[tuple[str, str]]
+) -> tuple[Refitter, Look]:
+    """The refitter that knows whether something is missing in a fitted network, and the look that tells."""
+    seen = look_at(refitter, model, (), folds)
+    return replace(refitter, missing=look_for_leftover(refitter, seen, pairs).notable()), seen
+
+
+def of_the_others(
+    refitter: Refitter,
+    model: Model,
+    pursuit: Pursuit,
+    groups: Mapping[str, str],
+    search: Callable[[Refitter, Folds, Model], Pursuit],
+) -> tuple[Pursuit, tuple[Leftover, ...]]:
+    """What a search without the runs ends with that depart from the others, and what is left in each of them.
+
+    The ``pursuit`` of all runs where none does, and where a cause would be lost that these runs alone show, and that
+    explains them: it tells their conditions. ``model`` is the fitted network without causes.
+    """
+    look = replace(pursuit.look, model=pursuit.best.model)
+    apart = runs_apart(refitter, look, repeats_of(refitter, groups), groups)
+    if not apart:
+        return pursuit, ()
+    alone = {left.run for left in apart}
+    others = without_runs(refitter, alone)
+    folds, pairs = folds_with_rows(others.runs, groups), repeats_of(others, groups)
+    others, _ = certain_of_more(others, others.fit(model, look.noise), folds, pairs)
+    found = search(others, folds, others.fit(look.model, look.noise))
+    lost = set(pursuit.best.model.names) - set(found.best.model.names)
+    if lost and share_explained(refitter, alone, pursuit.best.model, found.best.model) >= NAMED:
+        return pursuit, ()
+    return found, apart
 
 
 def fit_to_rest(fit: Callable[[int], FitResult], swing: float) -> tuple[FitResult, list[str]]:

@@ -119,7 +119,7 @@ class Diagnosis(Findings):
         if self.triage.faults:
             return "bad_data"
         left = self.leftover.notable() and not self._at_floor or self.leftover.line
-        open_ends = left or self._far_above_attainable or self._beyond_noise or self.fails_held_out
+        open_ends = left or bool(self.apart) or self._far_above_attainable or self._beyond_noise or self.fails_held_out
         if open_ends:
             return "partly_explained" if self.named else "unexplained"
         if any(named.rivals for named in self.named):

@@ -28,7 +28,7 @@ from dashpot.diagnose.named import about_of, standing_of
 from dashpot.diagnose.next_run import NextRun
 from dashpot.diagnose.polish import left_out_error
 from dashpot.diagnose.pursuit import Pursuit
-from dashpot.diagnose.single_runs import floor_of_corrected
+from dashpot.diagnose.single_runs import departure_in_words, floor_of_corrected
 from dashpot.diagnose.table_rows import groups_of
 from dashpot.diagnose.term import Term
 from dashpot.fit.api import Setting, measure_errors
@@ -65,7 +65,8 @@ class Removal:
 class Findings:
     """Everything that was found, the files that are written of it, and what they give when they are read again.
 
-    ``corrected`` are the training runs with the faults of single runs put right.
+    ``corrected`` are the training runs with the faults of single runs put right. By those that are ``apart`` nothing
+    was decided, and to them nothing fitted: what is left is of these alone.
     """
 
     setting: Setting
@@ -73,6 +74,7 @@ class Findings:
     fit: FitResult
     pursuit: Pursuit
     accused: tuple[Accused, ...]
+    apart: tuple[str, ...]
     corrected: Mapping[str, ScoredRun]
     final: NetworkSpec
     removals: tuple[Removal, ...]
@@ -99,12 +101,12 @@ class Findings:
     def extended_name(self) -> str | None:
         """File name of the network that goes with the result, None where that is the diagnosed one as it was fitted.
 
-        Where nothing was added it is the network without the branches that may go, or fitted to corrected runs, or with
-        the curves of the slow loop refined to all runs.
+        Where nothing was added it is the network without the branches that may go, or fitted to corrected runs, or
+        without the runs that are ``apart``, or with the curves of the slow loop refined to all runs.
         """
         words = list(dict.fromkeys(term.word for term in self.pursuit.best.model.causes))
         words = words or ["reduced"] * bool(self.spare) or ["corrected"] * bool(self.accused)
-        words = words or ["refined"] * self._refined
+        words = words or ["others"] * bool(self.apart) or ["refined"] * self._refined
         return f"{joined_name(self.model.name, words)}.yaml" if words else None
 
     @cached_property
@@ -137,7 +139,8 @@ class Findings:
         farther from it, all that is no noise: any law takes up a part of that by chance.
         """
         known = self._floor if self._floor and not self._near_floor else (1.0 + FORM_ERROR) * self._attainable
-        return max(self.leftover.share, 1.0 - min(known / self._unseen, 1.0) ** 2)
+        left = 0.0 if self.apart else self.leftover.share
+        return max(left, 1.0 - min(known / self._unseen, 1.0) ** 2)
 
     @property
     def fitted_name(self) -> str:
@@ -161,7 +164,8 @@ class Findings:
             "predecessor": self.model.name,
         }
         sure = {self._title(term): standing_of(self.presence(term)) for term in self.pursuit.best.model.causes}
-        plain = "fitted to corrected runs" if self.accused else "its curves refined to all runs"
+        without = f"fitted without {', '.join(self.apart)}" if self.apart else "its curves refined to all runs"
+        plain = "fitted to corrected runs" if self.accused else without
         what = "extended by a diagnosis" if sure else "without what may go" if self.spare else plain
         told = [f"{IN_FILES[standing]}: {title}" for title, standing in sure.items()]
         head = [f"{self.model.name}, {what}.", *told]
@@ -175,20 +179,11 @@ class Findings:
     @property
     def corrections(self) -> dict[str, Correction]:
         """What puts runs right, by run: what triage found, and the faults that runs were accused of."""
-        found = self.triage_corrections
+        found = self.triage.corrections
         for one in self.accused:
             known = found.get(one.run)
             found[one.run] = known.then(one.correction) if known else one.correction
         return found
-
-    @property
-    def triage_corrections(self) -> dict[str, Correction]:
-        """The signs and units that triage corrects, by run."""
-        return {
-            fault.run: _multiplied(fault.channel, fault.factor)
-            for fault in self.triage.faults
-            if fault.factor is not None
-        }
 
     @property
     def set_aside(self) -> dict[str, str]:
@@ -212,13 +207,13 @@ class Findings:
 
         None where triage found nothing, or there is no file.
         """
-        if not (self.triage_corrections or self.set_aside):
+        if not (self.triage.corrections or self.set_aside):
             return None
         return TRIAGED if self.accused and self.corrected_name else self.corrected_name
 
     def datasets(self, folder: Path) -> dict[str, str]:
         """The texts of the corrected datasets by file name, to be written into a folder."""
-        written = {self.triaged_name: self.triage_corrections, self.corrected_name: self.corrections}
+        written = {self.triaged_name: self.triage.corrections, self.corrected_name: self.corrections}
         return {
             name: corrected_text(self.setting.dataset, corrections, self.set_aside, folder)
             for name, corrections in written.items()
@@ -256,7 +251,7 @@ class Findings:
     @cached_property
     def left_out(self) -> float | None:
         """The error in N of the written network on training runs left out in turn; None where they cannot be."""
-        runs = list(self.corrected.values())
+        runs = self._deciding
         groups = groups_of(runs, {run.name: run.cluster for run in self.setting.dataset.runs})
         free = self.pursuit.best.model.coordinates if self.extended_name else search_coordinates(self.fit.fitted)
         return left_out_error(self._chosen, free, runs, groups, self.jobs)
@@ -266,10 +261,17 @@ class Findings:
         """The network that is written: the final one, or the one that was diagnosed as it was fitted."""
         return self.final if self.extended_name else self.fit.fitted
 
+    @property
+    def _deciding(self) -> list[ScoredRun]:
+        """The training runs to which that network was fitted."""
+        return [run for run in self.corrected.values() if run.name not in self.apart]
+
     @cached_property
     def _trained(self) -> float:
-        """The RMSE in N of that network on the training runs."""
-        return measure_errors(self._chosen, self.after_setting, self.jobs).train
+        """Its RMSE in N on these."""
+        errors = measure_errors(self._chosen, self.after_setting, self.jobs).per_run
+        deciding = [name for name in self.setting.split.train if name not in self.apart]
+        return float(np.sqrt(np.mean([errors[name] ** 2 for name in deciding])))
 
     @property
     def _unseen(self) -> float:
@@ -280,7 +282,7 @@ class Findings:
     def _admitted(self) -> float:
         """The RMSE in N that the data sheet of the force channel admits; 0 where there is none."""
         sheets = {run.name: run.sensors.get("force", {}) for run in self.setting.dataset.runs}
-        return error_admitted(sheets, self.pursuit.look.view, list(self.corrected.values()))
+        return error_admitted(sheets, self.pursuit.look.view, self._deciding)
 
     @property
     def _predicting(self) -> float:
@@ -368,7 +370,8 @@ class Findings:
             f"Of the diagnosed network {names} may go, and the written one does without: all else refitted, nothing is "
             "predicted worse."
         ]
-        return [*self.triage.remarks, *spare * bool(self.spare), *alone, *self._on_held_out()]
+        departs = [departure_in_words(self.apart, self.leftover)] if self.apart else []
+        return [*self.triage.remarks, *departs, *spare * bool(self.spare), *alone, *self._on_held_out()]
 
     def _on_held_out(self) -> list[str]:
         theirs, mine = self.explainable.held_out, self.after.held_out
@@ -391,7 +394,3 @@ class Findings:
         """What the diagnosed network gets wrong on the training runs."""
         runs = [run for run in self.setting.dataset.runs if run.name in self.setting.split.train]
         return tuple(describe_misfit(runs, self.residuals(self.written_before, self.setting)))
-
-
-def _multiplied(channel: str, factor: float) -> Correction:
-    return Correction(gain=factor) if channel == "force" else Correction(displacement_gain=factor)

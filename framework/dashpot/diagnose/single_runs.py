@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence, Set
 from dataclasses import replace
+
+import numpy as np
 
 from dashpot.data.correction import Correction, corrected_run
 from dashpot.data.noise import NoiseFloor
 from dashpot.diagnose.channel import Accused
-from dashpot.diagnose.leftover import look_for_leftover
+from dashpot.diagnose.leftover import Leftover, look_for_leftover
 from dashpot.diagnose.look import Look, look_at
 from dashpot.diagnose.pursuit import NAMED
 from dashpot.diagnose.refit import Kept, Refitter
 from dashpot.diagnose.repeats import Kind
+from dashpot.diagnose.term import Model
 from dashpot.fit.api import Setting
 from dashpot.fit.floor import noise_floor
 from dashpot.fit.scored import ScoredRun
@@ -43,6 +46,57 @@ def faults_beside(
     right = put_right(refitter, accused)
     left = look_for_leftover(right, replace(look, model=right.fit(look.model, look.noise)), pairs)
     return [one for one in (each.judged(left.share) for each in accused) if one.probability >= NAMED]
+
+
+def runs_apart(
+    refitter: Refitter, look: Look, pairs: Sequence[tuple[str, str]], groups: Mapping[str, str]
+) -> tuple[Leftover, ...]:
+    """What is left of each run beside the model of a look, where that is of a few runs, each by itself.
+
+    Nothing where something is left in most of the ``groups`` of runs as well, all numbers fitted to these.
+    """
+    found, most = list[Leftover](), 0.5 * len({groups[run.name] for run in refitter.runs})
+    while (left := look_for_leftover(refitter, look, pairs)).notable():
+        refitter, pairs = without_runs(refitter, [left.run]), [pair for pair in pairs if left.run not in pair]
+        if not left.run or len({groups[run.name] for run in refitter.runs}) <= most:
+            return ()  # it is of the others as well
+        look = replace(look, model=refitter.fit(look.model, look.noise))
+        found.append(left)
+    return tuple(found)
+
+
+def share_explained(refitter: Refitter, apart: Set[str], by: Model, beside: Model) -> float:
+    """The share of what the runs that are ``apart`` have beside a model that another one explains.
+
+    The noise is what the former leaves of all others, to which it was fitted.
+    """
+
+    def squares(model: Model) -> dict[str, float]:
+        forces = refitter.forces(model.fitted)
+        return {run.name: float(np.mean((run.force - forces[run.name])[run.first :] ** 2)) for run in refitter.runs}
+
+    def mean(found: Mapping[str, float], names: Collection[str]) -> float:
+        return float(np.mean([found[name] for name in names]))
+
+    left, most = mean(squares(by), apart), squares(beside)
+    noise = mean(most, most.keys() - apart)
+    return (mean(most, apart) - left) / max(mean(most, apart) - noise, 1e-300)
+
+
+def without_runs(refitter: Refitter, names: Collection[str]) -> Refitter:
+    """A refitter of all other runs."""
+    return replace(refitter, runs=[run for run in refitter.runs if run.name not in names], reduced=Kept())
+
+
+def departure_in_words(apart: Sequence[str], left: Leftover) -> str:
+    """What the report says of the runs that are ``apart``; what is ``left`` is that of the first one."""
+    [first, *others] = apart
+    which = f"Runs {', '.join(map(repr, apart))} depart" if others else f"Run '{first}' departs"
+    return (
+        f"{which} from what the others show: what is left {left.what}. A fault or conditions of their own, nothing "
+        "proves which: causes and numbers are those of the other runs, and the error of all is told. Measure again, or "
+        "leave out."
+    )
 
 
 def names_of(accused: Sequence[Accused]) -> set[tuple[str, Kind]]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
+from dashpot.data.correction import Correction
 from dashpot.data.dataset import Dataset
 from dashpot.data.ends import one_force_each
 from dashpot.data.groups import group_repeats
@@ -36,6 +37,11 @@ class Triage:
 
     read: int = 0
     measured: int = 0
+
+    @property
+    def corrections(self) -> dict[str, Correction]:
+        """The signs and units that were corrected, by run."""
+        return {fault.run: fault.correction for fault in self.faults if fault.correction}
 
     @property
     def problems(self) -> tuple[Problem, ...]:

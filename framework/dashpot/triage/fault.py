@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+from dashpot.data.correction import Correction
 from dashpot.data.run import Run
 
 ENERGY, OTHER_RUNS, RANGE, RECORD = "energy", "other_runs", "range", "record"
@@ -32,6 +33,13 @@ class Fault:
         if self.factor is None:
             return "left out here"
         return f"the {self.channel} was multiplied by {self.factor:.6g} here"
+
+    @property
+    def correction(self) -> Correction | None:
+        """What was corrected here, for the dataset file; None for a run that is set aside."""
+        if self.factor is None:
+            return None
+        return Correction(gain=self.factor) if self.channel == "force" else Correction(displacement_gain=self.factor)
 
 
 def corrected(run: Run, fault: Fault) -> Run:
