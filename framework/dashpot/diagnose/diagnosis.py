@@ -159,6 +159,7 @@ class Diagnosis(Findings):
             "rejected": self._rejected(),
             "limits": self.limits(),
             "leftover": vars(self.leftover),
+            "apart": list(self.apart),
             "may_go": list(self.spare),
             "remarks": self.remarks,
             "seed": self.seed,

@@ -259,12 +259,21 @@ def _stands_in(causes: list[Json]) -> str:
 
 
 def _unexplained(diagnosis: Json, errors: Errors) -> str:
-    missing = "something is missing in the model, and no known cause fits it"
+    missing = _departs(diagnosis) or "something is missing in the model, and no known cause fits it"
     alike = [or_rivals(cause) for cause in diagnosis["causes"] if may_be(cause)]
     left = f", with which {quantity(errors.after, 'N')} remain" if errors.after is not None else ""
     told = f"it resembles {listed(alike)}" if alike else UNKNOWN
     resembled = f"; {told}{left}" if diagnosis["causes"] else ""
     return f"{error_phrase(errors)}: {missing}{resembled}{_leftover(diagnosis)}."
+
+
+def _departs(diagnosis: Json) -> str:
+    """That nothing is missing but in runs that depart from all others; nothing where causes are in the files."""
+    apart = diagnosis.get("apart") or []
+    if diagnosis["causes"] or not apart:
+        return ""
+    which = f"runs {join([repr(run) for run in apart])} depart" if len(apart) > 1 else f"run '{apart[0]}' departs"
+    return f"{which} from what the others show, in which nothing is missing"
 
 
 def _leftover(diagnosis: Json) -> str:

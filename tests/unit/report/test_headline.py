@@ -131,6 +131,14 @@ def test_what_is_left_is_described():
     assert "48.7" not in headline(diagnosis(verdict="unexplained", causes=[], leftover=left | {"share": 0.0}))
 
 
+def test_a_run_that_departs_is_no_gap_in_the_model():
+    told = diagnosis(verdict="unexplained", causes=[], apart=["a5_p30"])
+    assert headline(told).endswith(": run 'a5_p30' departs from what the others show, in which nothing is missing.")
+    two = diagnosis(verdict="unexplained", causes=[], apart=["a5_p30", "qs"])
+    assert "runs 'a5_p30' and 'qs' depart from what the others show" in headline(two)
+    assert "something is missing in the model" in headline(diagnosis(verdict="unexplained", apart=["a5_p30"]))
+
+
 def test_an_error_far_above_the_noise_is_told_so_without_a_number_of_times():
     far = {"value": 1.534e-4, "from": "residual"}
     told = diagnosis(verdict="partly_explained", noise_floor=far)
