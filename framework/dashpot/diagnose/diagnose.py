@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from dashpot.contract.cause import Cause
 from dashpot.contract.chain import make_optimizer
@@ -62,6 +62,17 @@ SEARCHES = 2  # beside faults of single runs; the same faults come back after th
 RELEVANCE = 0.0015  # share of the error by which a cause must matter
 
 
+class Searched(NamedTuple):
+    """The best structure, the faults of single training runs beside it, what is left beside both, and the runs that are
+    apart because it is of these alone.
+    """
+
+    pursuit: Pursuit
+    accused: Sequence[Accused]
+    leftover: Leftover
+    apart: tuple[str, ...]
+
+
 @single_threaded_algebra
 def diagnose(
     spec: NetworkSpec,
@@ -97,11 +108,10 @@ def diagnose(
     noise = math.inf if setting.floor.value is None else setting.floor.value
     refitter = Refitter(begun_together(searched, groups), registry.elements, sensors, jobs, noise=noise)
     watch = partial(_watch, progress, spec.name)
-    pursuit, accused, apart = find_causes(refitter, fit, causes, groups, setting, relevance, seed, watch)
+    pursuit, accused, leftover, apart = find_causes(refitter, fit, causes, groups, setting, relevance, seed, watch)
     give_back_memory()
     sound = {one.name: corrected(one, accused) for one in setting.train}
-    alone = tuple(left.run for left in apart)
-    runs = [run for run in sound.values() if run.name not in alone]
+    runs = [run for run in sound.values() if run.name not in apart]
     if accused:
         setting = replace(setting, floor=floor_of_corrected(setting, accused))
     model = pursuit.best.model
@@ -109,17 +119,14 @@ def diagnose(
     whole, *less = all_polished(pursuit, runs, jobs)
     final = known(whole, model, runs, together, jobs, setting.floor.value)
     removals = [Removal(one.name, found) for one, found in zip(pursuit.without, less, strict=True)]
-    last = without_runs(put_right(refitter, accused), alone)
-    leftover = (
-        apart[0] if apart else look_for_leftover(last, replace(pursuit.look, model=model), repeats_of(last, groups))
-    )
+    last = without_runs(put_right(refitter, accused), apart)
     return Diagnosis(
         setting=setting,
         triage=replace(triage, remarks=(*triage.remarks, *restarts, *remarks_on(spec, triage.dataset, pursuit))),
         fit=fit,
         pursuit=pursuit,
         accused=tuple(accused),
-        apart=alone,
+        apart=apart,
         corrected=sound,
         final=final,
         removals=tuple(removals),
@@ -147,8 +154,8 @@ def find_causes(
     relevance: float,
     seed: int,
     watch: Callable[[int, int], None],
-) -> tuple[Pursuit, list[Accused], tuple[Leftover, ...]]:
-    """The best structure, the faults of single training runs beside it, and what is left of runs that have it alone.
+) -> Searched:
+    """The best structure, and the faults of single training runs beside it.
 
     The residual tests tell beforehand whether anything is missing. Where repeats of a run disagree, all runs may have
     that fault, as large as they differ, while causes are searched.
@@ -172,7 +179,7 @@ def find_causes(
 
     pursuit = search(refitter, folds, model, doubted)
     if not recorded.runs:
-        return pursuit, [], ()
+        return of_the_others(refitter, model, pursuit, [], groups, search)
     measured = {run.name: run for run in setting.dataset.runs if run.name in setting.split.train}
 
     def accuse_beside(look: Look) -> list[Accused]:
@@ -185,8 +192,7 @@ def find_causes(
         before, accused = accused, faults_beside(refitter, pursuit.look, pairs, accuse_beside)
         if names_of(before) == names_of(accused):
             break
-    pursuit, apart = of_the_others(put_right(refitter, accused), model, pursuit, groups, search)
-    return pursuit, accused, apart
+    return of_the_others(put_right(refitter, accused), model, pursuit, accused, groups, search)
 
 
 def certain_of_more(
@@ -201,27 +207,29 @@ def of_the_others(
     refitter: Refitter,
     model: Model,
     pursuit: Pursuit,
+    accused: Sequence[Accused],
     groups: Mapping[str, str],
     search: Callable[[Refitter, Folds, Model], Pursuit],
-) -> tuple[Pursuit, tuple[Leftover, ...]]:
-    """What a search without the runs ends with that depart from the others, and what is left in each of them.
+) -> Searched:
+    """What a search without the runs ends with that depart from the others.
 
     The ``pursuit`` of all runs where none does, and where a cause would be lost that these runs alone show, and that
     explains them: it tells their conditions. ``model`` is the fitted network without causes.
     """
-    look = replace(pursuit.look, model=pursuit.best.model)
-    apart = runs_apart(refitter, look, repeats_of(refitter, groups), groups)
+    look, pairs = replace(pursuit.look, model=pursuit.best.model), repeats_of(refitter, groups)
+    left = look_for_leftover(refitter, look, pairs)
+    apart = runs_apart(refitter, look, left, pairs, groups)
+    whole = Searched(pursuit, accused, left, ())
     if not apart:
-        return pursuit, ()
-    alone = {left.run for left in apart}
-    others = without_runs(refitter, alone)
+        return whole
+    others = without_runs(refitter, apart)
     folds, pairs = folds_with_rows(others.runs, groups), repeats_of(others, groups)
     others, _ = certain_of_more(others, others.fit(model, look.noise), folds, pairs)
     found = search(others, folds, others.fit(look.model, look.noise))
     lost = set(pursuit.best.model.names) - set(found.best.model.names)
-    if lost and share_explained(refitter, alone, pursuit.best.model, found.best.model) >= NAMED:
-        return pursuit, ()
-    return found, apart
+    if lost and share_explained(refitter, apart, pursuit.best.model, found.best.model) >= NAMED:
+        return whole
+    return Searched(found, accused, left, apart)
 
 
 def fit_to_rest(fit: Callable[[int], FitResult], swing: float) -> tuple[FitResult, list[str]]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Mapping, Sequence, Set
+from collections.abc import Callable, Collection, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -49,23 +49,23 @@ def faults_beside(
 
 
 def runs_apart(
-    refitter: Refitter, look: Look, pairs: Sequence[tuple[str, str]], groups: Mapping[str, str]
-) -> tuple[Leftover, ...]:
-    """What is left of each run beside the model of a look, where that is of a few runs, each by itself.
+    refitter: Refitter, look: Look, left: Leftover, pairs: Sequence[tuple[str, str]], groups: Mapping[str, str]
+) -> tuple[str, ...]:
+    """The few runs that have what is ``left`` beside the model of a look, each by itself.
 
-    Nothing where something is left in most of the ``groups`` of runs as well, all numbers fitted to these.
+    None where something is left in most of the ``groups`` of runs as well, all numbers fitted to these.
     """
-    found, most = list[Leftover](), 0.5 * len({groups[run.name] for run in refitter.runs})
-    while (left := look_for_leftover(refitter, look, pairs)).notable():
-        refitter, pairs = without_runs(refitter, [left.run]), [pair for pair in pairs if left.run not in pair]
+    found, most = list[str](), 0.5 * len({groups[run.name] for run in refitter.runs})
+    while left.notable():
+        refitter, pairs = without_runs(refitter, {left.run}), [pair for pair in pairs if left.run not in pair]
         if not left.run or len({groups[run.name] for run in refitter.runs}) <= most:
-            return ()  # it is of the others as well
-        look = replace(look, model=refitter.fit(look.model, look.noise))
-        found.append(left)
+            return ()
+        found.append(left.run)
+        left = look_for_leftover(refitter, replace(look, model=refitter.fit(look.model, look.noise)), pairs)
     return tuple(found)
 
 
-def share_explained(refitter: Refitter, apart: Set[str], by: Model, beside: Model) -> float:
+def share_explained(refitter: Refitter, apart: Collection[str], by: Model, beside: Model) -> float:
     """The share of what the runs that are ``apart`` have beside a model that another one explains.
 
     The noise is what the former leaves of all others, to which it was fitted.
@@ -79,7 +79,7 @@ def share_explained(refitter: Refitter, apart: Set[str], by: Model, beside: Mode
         return float(np.mean([found[name] for name in names]))
 
     left, most = mean(squares(by), apart), squares(beside)
-    noise = mean(most, most.keys() - apart)
+    noise = mean(most, most.keys() - set(apart))
     return (mean(most, apart) - left) / max(mean(most, apart) - noise, 1e-300)
 
 
