@@ -217,6 +217,7 @@ def test_only_what_is_accepted_explains(why, standings, rivals, far, verdict):
     found = SimpleNamespace(
         triage=SimpleNamespace(faults=()),
         leftover=Leftover(0.0, 0.0, ""),
+        apart=(),
         **{name: far and name == why for name in ("_far_above_attainable", "_beyond_noise", "fails_held_out")},
         named=[term for term in terms if term.standing == "accepted"],
         terms=terms,
@@ -229,6 +230,7 @@ def test_at_the_noise_floor_only_a_line_is_no_noise(line, verdict):
     found = SimpleNamespace(
         triage=SimpleNamespace(faults=()),
         leftover=Leftover(20.0, 0.5, "", line=line),
+        apart=(),
         _at_floor=True,
         _far_above_attainable=False,
         _beyond_noise=False,
