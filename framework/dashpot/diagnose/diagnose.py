@@ -211,25 +211,27 @@ def of_the_others(
     groups: Mapping[str, str],
     search: Callable[[Refitter, Folds, Model], Pursuit],
 ) -> Searched:
-    """What a search without the runs ends with that depart from the others.
+    """What a search without the runs ends with that depart from the others, in which nothing is left.
 
     The ``pursuit`` of all runs where none does, and where a cause would be lost that these runs alone show, and that
-    explains them: it tells their conditions. ``model`` is the fitted network without causes.
+    explains them: it tells their conditions. Where nothing was found, they may have hidden it: then nothing has to be
+    left beside what the search finds. ``model`` is the fitted network without causes.
     """
     look, pairs = replace(pursuit.look, model=pursuit.best.model), repeats_of(refitter, groups)
     left = look_for_leftover(refitter, look, pairs)
-    apart = runs_apart(refitter, look, left, pairs, groups)
-    whole = Searched(pursuit, accused, left, ())
-    if not apart:
+    apart, rest = runs_apart(refitter, look, left, pairs, groups)
+    whole, known = Searched(pursuit, accused, left, ()), set(pursuit.best.model.names)
+    if not apart or (known and rest.notable()):
         return whole
     others = without_runs(refitter, apart)
     folds, pairs = folds_with_rows(others.runs, groups), repeats_of(others, groups)
     others, _ = certain_of_more(others, others.fit(model, look.noise), folds, pairs)
     found = search(others, folds, others.fit(look.model, look.noise))
-    lost = set(pursuit.best.model.names) - set(found.best.model.names)
-    if lost and share_explained(refitter, apart, pursuit.best.model, found.best.model) >= NAMED:
-        return whole
-    return Searched(found, accused, left, apart)
+    if rest.notable():
+        rest = look_for_leftover(others, replace(found.look, model=found.best.model), pairs)
+    lost = known - set(found.best.model.names)
+    explained = lost and share_explained(refitter, apart, pursuit.best.model, found.best.model) >= NAMED
+    return whole if explained or rest.notable() else Searched(found, accused, left, apart)
 
 
 def fit_to_rest(fit: Callable[[int], FitResult], swing: float) -> tuple[FitResult, list[str]]:

@@ -50,19 +50,19 @@ def faults_beside(
 
 def runs_apart(
     refitter: Refitter, look: Look, left: Leftover, pairs: Sequence[tuple[str, str]], groups: Mapping[str, str]
-) -> tuple[str, ...]:
-    """The few runs that have what is ``left`` beside the model of a look, each by itself.
+) -> tuple[tuple[str, ...], Leftover]:
+    """The runs that have what is ``left`` beside the model of a look, each by itself, and what is left in the others.
 
-    None where something is left in most of the ``groups`` of runs as well, all numbers fitted to these.
+    All numbers are fitted to the others. None where most of the ``groups`` of runs would be among them.
     """
-    found, most = list[str](), 0.5 * len({groups[run.name] for run in refitter.runs})
-    while left.notable():
-        refitter, pairs = without_runs(refitter, {left.run}), [pair for pair in pairs if left.run not in pair]
-        if not left.run or len({groups[run.name] for run in refitter.runs}) <= most:
-            return ()
-        found.append(left.run)
-        left = look_for_leftover(refitter, replace(look, model=refitter.fit(look.model, look.noise)), pairs)
-    return tuple(found)
+    found, most, rest = list[str](), 0.5 * len({groups[run.name] for run in refitter.runs}), left
+    while rest.notable() and rest.run:
+        refitter, pairs = without_runs(refitter, {rest.run}), [pair for pair in pairs if rest.run not in pair]
+        if len({groups[run.name] for run in refitter.runs}) <= most:
+            return (), left
+        found.append(rest.run)
+        rest = look_for_leftover(refitter, replace(look, model=refitter.fit(look.model, look.noise)), pairs)
+    return tuple(found), rest
 
 
 def share_explained(refitter: Refitter, apart: Collection[str], by: Model, beside: Model) -> float:
