@@ -247,6 +247,7 @@ def _partly_explained(diagnosis: Json, errors: Errors) -> str:
     left = f"{quantity(errors.after, 'N')} remain unexplained"
     if errors.floor and errors.after is not None:
         left += f", {above_floor(errors.after, errors.floor)}"
+    left = _departs(diagnosis) or left
     only = "only " if errors.gain is not None and 0.0 < errors.gain <= MOST else ""
     named = only + _part(errors.gain, causes, errors.runs) if causes else "it is only partly explained"
     return f"{error_phrase(errors)}; {named}; {left}{_stands_in(causes)}{_leftover(diagnosis)}."
@@ -259,7 +260,9 @@ def _stands_in(causes: list[Json]) -> str:
 
 
 def _unexplained(diagnosis: Json, errors: Errors) -> str:
-    missing = _departs(diagnosis) or "something is missing in the model, and no known cause fits it"
+    missing = "something is missing in the model, and no known cause fits it"
+    if (departs := _departs(diagnosis)) and not diagnosis["causes"]:
+        missing = f"{departs}, in which nothing is missing"
     alike = [or_rivals(cause) for cause in diagnosis["causes"] if may_be(cause)]
     left = f", with which {quantity(errors.after, 'N')} remain" if errors.after is not None else ""
     told = f"it resembles {listed(alike)}" if alike else UNKNOWN
@@ -268,12 +271,11 @@ def _unexplained(diagnosis: Json, errors: Errors) -> str:
 
 
 def _departs(diagnosis: Json) -> str:
-    """That nothing is missing but in runs that depart from all others; nothing where causes are in the files."""
+    """Which runs depart from all others; empty where none does."""
     apart = diagnosis.get("apart") or []
-    if diagnosis["causes"] or not apart:
-        return ""
-    which = f"runs {join([repr(run) for run in apart])} depart" if len(apart) > 1 else f"run '{apart[0]}' departs"
-    return f"{which} from what the others show, in which nothing is missing"
+    if len(apart) == 1:
+        return f"run '{apart[0]}' departs from what the others show"
+    return f"runs {join([repr(run) for run in apart])} depart from what the others show" if apart else ""
 
 
 def _leftover(diagnosis: Json) -> str:

@@ -137,6 +137,9 @@ def test_a_run_that_departs_is_no_gap_in_the_model():
     two = diagnosis(verdict="unexplained", causes=[], apart=["a5_p30", "qs"])
     assert "runs 'a5_p30' and 'qs' depart from what the others show" in headline(two)
     assert "something is missing in the model" in headline(diagnosis(verdict="unexplained", apart=["a5_p30"]))
+    rmse = {"before": {"held_out": 61.0}, "after": {"held_out": 14.5}}
+    said = headline(diagnosis(verdict="partly_explained", rmse=rmse, apart=["a5_p30"]))
+    assert said.endswith("; run 'a5_p30' departs from what the others show.") and "remain unexplained" not in said
 
 
 def test_an_error_far_above_the_noise_is_told_so_without_a_number_of_times():
