@@ -93,9 +93,9 @@ def departure_in_words(apart: Sequence[str], left: Leftover) -> str:
     [first, *others] = apart
     which = f"Runs {', '.join(map(repr, apart))} depart" if others else f"Run '{first}' departs"
     return (
-        f"{which} from what the others show: what is left {left.what}. That is a fault or comes from special conditions, "
-        "and nothing proves which: causes and numbers are those of the other runs, and the error of all is told. "
-        "Measure again, or leave out."
+        f"{which} from what the others show: what is left {left.what}. That is a fault or comes from special "
+        "conditions, and nothing proves which: causes and numbers are those of the other runs, and the error of all is "
+        "told. Measure again, or leave out."
     )
 
 

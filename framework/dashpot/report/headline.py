@@ -247,10 +247,10 @@ def _partly_explained(diagnosis: Json, errors: Errors) -> str:
     left = f"{quantity(errors.after, 'N')} remain unexplained"
     if errors.floor and errors.after is not None:
         left += f", {above_floor(errors.after, errors.floor)}"
-    left = _departs(diagnosis) or left
-    only = "only " if errors.gain is not None and 0.0 < errors.gain <= MOST else ""
+    departs = _departs(diagnosis)
+    only = "only " if errors.gain is not None and 0.0 < errors.gain <= MOST and not departs else ""
     named = only + _part(errors.gain, causes, errors.runs) if causes else "it is only partly explained"
-    return f"{error_phrase(errors)}; {named}; {left}{_stands_in(causes)}{_leftover(diagnosis)}."
+    return f"{error_phrase(errors)}; {named}; {departs or left}{_stands_in(causes)}{_leftover(diagnosis)}."
 
 
 def _stands_in(causes: list[Json]) -> str:
