@@ -154,44 +154,6 @@ def test_a_run_that_stands_alone_is_no_noise_though_its_repeat_differs(alone, at
     assert Findings._at_floor.fget(found) == at_floor
 
 
-def with_friction(motion):
-    return plain(motion) + friction(motion)
-
-
-@pytest.mark.parametrize("apart", [("a3_p11",), ("a3_p11", "a1_p5")], ids=["one run", "two runs"])
-@pytest.mark.parametrize("law", [with_friction, plain], ids=["friction", "nothing"])
-def test_runs_that_depart_from_the_others_spoil_no_name(law, apart):
-    """Runs at corners of the conditions have faults, which nothing proves; the friction that all runs have is named."""
-    faults = {"a3_p11": lambda force: force + np.linspace(0.0, 60.0, SAMPLES), "a1_p5": lambda force: force - 40.0}
-    data = dataset(law, repeats=AGAIN, fault={run: faults[run] for run in apart})
-    found = diagnose(bench(data).model.declared, data, registry=load_registry())
-    others = [run for run in found.setting.split.train if run not in apart]
-    assert set(found.apart) == set(apart) and found.leftover.run in apart and not found.accused
-    assert [one.cause.word for one in found.named] == ["friction"] * (law is with_friction)
-    assert found.verdict == ("partly_explained" if law is with_friction else "unexplained")
-    assert all(found.after.per_run[run] == pytest.approx(NOISE, rel=0.15) for run in others)
-    assert all(found.after.per_run[run] > 3.0 * NOISE for run in apart)  # they are not corrected
-    assert any(all(f"'{run}'" in remark for run in apart) and "depart" in remark for remark in found.remarks)
-
-
-def test_what_a_bad_run_hides_is_found_in_the_others():
-    """Beside a gain of 4 % in a run of small strokes the friction is not found at first."""
-    data = dataset(with_friction, repeats=AGAIN, fault={"a1_p11": lambda force: 1.04 * force})
-    found = diagnose(bench(data).model.declared, data, registry=load_registry())
-    assert found.apart == ("a1_p11",) and [one.cause.word for one in found.named] == ["friction"]
-
-
-def test_a_cause_that_one_run_alone_shows_is_not_lost():
-    """A stop that the deepest run alone reaches, of a form that no element has."""
-    data = dataset(
-        lambda motion: plain(motion) + 400.0 * np.expm1(np.maximum(motion.x() - 15.5e-3, 0.0) / 0.8e-3),
-        motions={**MOTIONS, "deepest": Motion(3e-3, 15e-3)},
-        repeats=AGAIN,
-    )
-    found = diagnose(bench(data).model.declared, data, registry=load_registry())
-    assert not found.apart and [one.cause.word for one in found.named] == ["end_stop"]
-
-
 def test_what_triage_corrects_stands_in_the_corrected_dataset():
     """The force as well as the displacement; a run that it sets aside has no correction."""
     faults = [
