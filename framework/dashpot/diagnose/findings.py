@@ -37,6 +37,7 @@ from dashpot.fit.kept_curves import kept_curves
 from dashpot.fit.objective import as_simulated
 from dashpot.fit.result import Errors, FitResult
 from dashpot.fit.scored import ScoredRun
+from dashpot.fit.seen_range import seen_range
 from dashpot.model.element import Element
 from dashpot.model.network import NetworkSpec
 from dashpot.model.patch import fill_numbers, rename
@@ -169,7 +170,8 @@ class Findings:
         what = "extended by a diagnosis" if sure else "without what may go" if self.spare else plain
         told = [f"{IN_FILES[standing]}: {title}" for title, standing in sure.items()]
         head = [f"{self.model.name}, {what}.", *told]
-        text = fill_numbers(self.pursuit.best.model.declared, self.final, record, self.fit.seen)
+        seen = seen_range(self.model, self._deciding)
+        text = fill_numbers(self.pursuit.best.model.declared, self.final, record, seen)
         return rename(text, self.extended_name.removesuffix(".yaml"), [*head, f"predecessor: {self.model.name}"])
 
     def _title(self, term: Term) -> str:
@@ -358,10 +360,10 @@ class Findings:
     def remarks(self) -> list[str]:
         """What the report says of the data and the search; a fault that only a held-out run has stands here alone."""
         errors = self.after.per_run
-        worst = max(errors[run] for run in self.setting.split.train)
+        worst = max(errors[run.name] for run in self._deciding)
         alone = [
-            f"The held-out run '{run}' has an RMSE of {errors[run]:.3g} N, no training run by more than {worst:.3g} N: "
-            "it has a fault, or was made under conditions that these do not have. It decided nothing."
+            f"The held-out run '{run}' has an RMSE of {errors[run]:.3g} N, those that were fitted {worst:.3g} N at "
+            "most: it has a fault, or was made under conditions that these do not have. It decided nothing."
             for run in self.setting.split.held_out
             if errors[run] > ALONE * worst
         ]

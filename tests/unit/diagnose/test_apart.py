@@ -30,6 +30,8 @@ def test_runs_that_depart_from_the_others_spoil_no_name(law, apart):
     assert found.verdict == ("partly_explained" if law is with_friction else "unexplained")
     assert all(found.after.per_run[run] == pytest.approx(NOISE, rel=0.15) for run in others)
     assert all(found.after.per_run[run] > 3.0 * NOISE for run in apart)  # they are not corrected
+    reach = max(MOTIONS[run].x().max() for run in others if run != "again")
+    assert found.written.identified.range["displacement"][1] == pytest.approx(reach, rel=1e-3)
     assert any(all(f"'{run}'" in remark for run in apart) and "depart" in remark for remark in found.remarks)
 
 
