@@ -169,7 +169,7 @@ def find_causes(
         freed = polished(first_model(fit.declared, free_curves(fit.fitted)), refitter.runs, refitter.jobs)
         model = first_model(fit.declared, freed)
     folds, pairs = folds_with_rows(refitter.runs, groups), repeats_of(refitter, groups)
-    refitter, seen = certain_of_more(refitter, model, folds, pairs)
+    refitter, seen = tested_beforehand(refitter, model, folds, pairs)
     recorded = replace(refitter, runs=records(refitter.runs), reduced=Kept())
     kinds = kinds_of(causes, seen)
     doubted = doubts(recorded, seen, kinds, groups) if recorded.runs else []
@@ -179,7 +179,7 @@ def find_causes(
 
     pursuit = search(refitter, folds, model, doubted)
     if not recorded.runs:
-        return of_the_others(refitter, model, pursuit, [], groups, search)
+        return searched_without_apart(refitter, model, pursuit, [], groups, search)
     measured = {run.name: run for run in setting.dataset.runs if run.name in setting.split.train}
 
     def accuse_beside(look: Look) -> list[Accused]:
@@ -192,18 +192,18 @@ def find_causes(
         before, accused = accused, faults_beside(refitter, pursuit.look, pairs, accuse_beside)
         if names_of(before) == names_of(accused):
             break
-    return of_the_others(put_right(refitter, accused), model, pursuit, accused, groups, search)
+    return searched_without_apart(put_right(refitter, accused), model, pursuit, accused, groups, search)
 
 
-def certain_of_more(
+def tested_beforehand(
     refitter: Refitter, model: Model, folds: Folds, pairs: Sequence[tuple[str, str]]
 ) -> tuple[Refitter, Look]:
-    """The refitter that knows whether something is missing in a fitted network, and the look that tells."""
+    """The refitter that knows from the residual tests whether a fitted network lacks anything, and the look of these."""
     seen = look_at(refitter, model, (), folds)
     return replace(refitter, missing=look_for_leftover(refitter, seen, pairs).notable()), seen
 
 
-def of_the_others(
+def searched_without_apart(
     refitter: Refitter,
     model: Model,
     pursuit: Pursuit,
@@ -225,7 +225,7 @@ def of_the_others(
         return whole
     others = without_runs(refitter, apart)
     folds, pairs = folds_with_rows(others.runs, groups), repeats_of(others, groups)
-    others, _ = certain_of_more(others, others.fit(model, look.noise), folds, pairs)
+    others, _ = tested_beforehand(others, others.fit(model, look.noise), folds, pairs)
     found = search(others, folds, others.fit(look.model, look.noise))
     if rest.notable():
         rest = look_for_leftover(others, replace(found.look, model=found.best.model), pairs)

@@ -270,7 +270,7 @@ class Findings:
 
     @cached_property
     def _trained(self) -> float:
-        """Its RMSE in N on these."""
+        """The RMSE in N of the network that is written on the training runs to which it was fitted."""
         errors = measure_errors(self._chosen, self.after_setting, self.jobs).per_run
         deciding = [name for name in self.setting.split.train if name not in self.apart]
         return float(np.sqrt(np.mean([errors[name] ** 2 for name in deciding])))

@@ -1,4 +1,4 @@
-"""Faults of single runs beside a model, and the runs without them."""
+"""Faults of single runs beside a model, the runs without them, and runs that depart from all others."""
 
 from __future__ import annotations
 
@@ -66,9 +66,9 @@ def runs_apart(
 
 
 def share_explained(refitter: Refitter, apart: Collection[str], by: Model, beside: Model) -> float:
-    """The share of what the runs that are ``apart`` have beside a model that another one explains.
+    """The share of what the model ``beside`` leaves of the runs that are ``apart`` that the model ``by`` explains.
 
-    The noise is what the former leaves of all others, to which it was fitted.
+    Beyond the noise, which is what the former leaves of all others, to which it was fitted.
     """
 
     def squares(model: Model) -> dict[str, float]:

@@ -63,11 +63,13 @@ def test_the_share_that_a_model_explains_of_a_run_beside_another_one():
 
 
 def test_a_cause_that_one_run_alone_shows_is_not_lost():
-    """A stop that the deepest run alone reaches, of a form that no element has."""
+    """The deepest run alone reaches a stop, and drifts: the stop explains far more of it than what is left."""
     data = dataset(
         lambda motion: plain(motion) + 400.0 * np.expm1(np.maximum(motion.x() - 15.5e-3, 0.0) / 0.8e-3),
         motions={**MOTIONS, "deepest": Motion(3e-3, 15e-3)},
         repeats=AGAIN,
+        fault={"deepest": lambda force: force + np.linspace(0.0, 40.0, SAMPLES)},
     )
     found = diagnose(bench(data).model.declared, data, registry=load_registry())
-    assert not found.apart and [one.cause.word for one in found.named] == ["end_stop"]
+    assert found.leftover.run == "deepest" and found.leftover.notable()
+    assert not found.apart and "end_stop" in [term.cause.word for term in found.terms]
