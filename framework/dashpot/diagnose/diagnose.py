@@ -198,7 +198,7 @@ def find_causes(
 def tested_beforehand(
     refitter: Refitter, model: Model, folds: Folds, pairs: Sequence[tuple[str, str]]
 ) -> tuple[Refitter, Look]:
-    """The refitter that knows from the residual tests whether a fitted network lacks anything, and the look of these."""
+    """The refitter that knows from residual tests whether a fitted network lacks anything, and the look of these."""
     seen = look_at(refitter, model, (), folds)
     return replace(refitter, missing=look_for_leftover(refitter, seen, pairs).notable()), seen
 
