@@ -13,6 +13,7 @@ from dashpot.contract.cause import Atom, Cause, Suspect, View, branch_lines, fre
 from dashpot.model.network import Branch, NetworkSpec
 from dashpot.model.patch import add_branch, add_to_branch, branch_names
 from dashpot.text.quantity import pretty, pretty_all
+from dashpot_causes.along_curves import damped
 from dashpot_causes.factors import SMALLEST_FACTOR, at_all_places, factors_of
 from dashpot_causes.stiffness_curve import hats
 
@@ -26,7 +27,9 @@ CHANGES = 0.9  # least over largest factor of a branch of its own: what changes 
 
 
 class PreloadDependentDamping(Cause):
-    """A force in proportion to velocity, or one that relaxes, with a factor over deflection."""
+    """A force in proportion to velocity, or one that relaxes, with a factor over deflection; a damping in proportion
+    to the slope of a stiffness curve.
+    """
 
     word = "preload_dependent_damping"
     kind = "specimen"
@@ -77,6 +80,7 @@ class PreloadDependentDamping(Cause):
                 admits=changes,
                 of_motion=True,
             )
+        yield from damped(view, network, CHANGES)
 
 
 def anyhow(numbers: Mapping[str, float]) -> bool:

@@ -8,7 +8,7 @@ import numpy as np
 
 from dashpot.contract.cause import Cause, Suspect, View, added_branch
 from dashpot.model.network import NetworkSpec
-from dashpot_causes.curve_relaxation import along_curves
+from dashpot_causes.along_curves import relaxing
 
 UNITS = {"stiffness": "N/m", "relaxation_time": "s"}
 SPRINGPOT_UNITS = {"stiffness": "N/m", "order": "1", "reference": "Hz", "lowest": "Hz", "decades": "1", "dwell": "s"}
@@ -60,7 +60,7 @@ class Relaxation(Cause):
         decades = float(np.log10(FAST * view.highest_frequency / lowest))
         if decades > 1.0:
             yield _springpot(lowest, min(decades, MOST_DECADES))
-        yield from along_curves(view, network, fastest)
+        yield from relaxing(view, network, fastest)
 
 
 def _springpot(lowest: float, decades: float) -> Suspect:

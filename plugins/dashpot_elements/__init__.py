@@ -31,6 +31,7 @@ FAMILIES: Mapping[str, tuple[str, ...]] = {
         "valve",
         "compliant_damper",
         "stiffening_maxwell",
+        "proportional_damper",
         "fading_damper",
         "worn_damper",
     ),

@@ -47,10 +47,11 @@ def agreed_by_chance(groups: int) -> float:
     return 0.5**groups
 
 
-def share_of_both(explained: float, unexplained: float) -> float:
+def share_of_both(explained: float, unexplained: float, odds: float = 1.0) -> float:
     """The probability of a cause against a law that nobody has named: its share of what both explain.
 
-    Both are shares of the square of the residual. The unknown law acts in the same specimen, so that more runs do not
-    say how much of what it does the cause has taken up.
+    Both are shares of the square of the residual, ``odds`` those of the cause beforehand against a law of the specimen.
+    The unknown law acts in the same specimen, so that more runs do not say how much of what it does the cause has
+    taken up.
     """
-    return explained / (explained + unexplained) if isfinite(explained) else 1.0
+    return odds * explained / (odds * explained + unexplained) if isfinite(explained) else 1.0

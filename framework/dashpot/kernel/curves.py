@@ -77,3 +77,7 @@ class TableLaw:
         if order == 0:
             return c0 + u * (c1 + u * (c2 + u * c3))
         return c1 + u * (2.0 * c2 + 3.0 * u * c3) if order == 1 else 2.0 * c2 + 6.0 * u * c3
+
+    def slope(self, argument: Any) -> Array:
+        """The slope in every lane (lanes,)."""
+        return self(argument, 1)

@@ -7,7 +7,8 @@ does. Both see the drive as the kernel does: rate-independent branches also move
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 from types import SimpleNamespace
 from typing import Any
 
@@ -157,13 +158,25 @@ def _numbers(spec: NetworkSpec, block: Array) -> Numbers:
     return {slot.path: column for slot, column in zip(spec.slots(), block.T, strict=True)}
 
 
-def _curve(path: str, curve: Characteristic, numbers: Numbers) -> Callable[[Any], Any]:
+def _curve(path: str, curve: Characteristic, numbers: Numbers) -> TableLaw | _PowerLaw:
     if curve.form == "table":
         return table_law(path, curve, numbers)
     if curve.form == "constant":
-        return lambda argument: numbers[path] * argument
-    powers = [numbers[f"{path}[{number}]"] for number in range(len(curve.values))]
-    return lambda argument: sum(factor * argument**power for power, factor in enumerate(powers, 1))
+        return _PowerLaw((numbers[path],))
+    return _PowerLaw([numbers[f"{path}[{number}]"] for number in range(len(curve.values))])
+
+
+@dataclass(frozen=True, eq=False)
+class _PowerLaw:
+    """A polynomial through the origin; ``factors`` (lanes,) of its powers from the first on."""
+
+    factors: Sequence[Array]
+
+    def __call__(self, argument: Any) -> Any:
+        return sum(factor * argument**power for power, factor in enumerate(self.factors, 1))
+
+    def slope(self, argument: Any) -> Any:
+        return sum(power * factor * argument ** (power - 1) for power, factor in enumerate(self.factors, 1))
 
 
 def table_law(path: str, curve: Characteristic, numbers: Numbers) -> TableLaw:

@@ -45,7 +45,8 @@ class Curve:
     ``value`` and ``over`` name the two axes and their SI units, as they are written in a file:
     ``stiffness: 220 N/mm``, ``stiffness: {polynomial: [180 N/mm, 1 N/mm^2]}``,
     ``stiffness: {deflection: [0 mm, 10 mm], force: [0 N, 2 kN]}``. A search does not let the table of a ``rising`` law
-    fall anywhere.
+    fall anywhere. In a law it is called with its argument, ``p.stiffness(x.new)``; its slope there is
+    ``p.stiffness.slope(x.new)``.
 
     Examples:
         >>> law = dp.Curve(("force", "N"), ("deflection", "m"), "force over deflection", bounds=(1.0, 1e9))

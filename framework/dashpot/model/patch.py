@@ -179,12 +179,22 @@ def add_measurement(text: str, key: str, entry: str) -> str:
 
 
 def remove_measurement(text: str, key: str) -> str:
-    """The text without an entry of that key under ``measurement: force:``; as it is where there is none."""
+    """The text without an entry of that key under ``measurement: force:``, and without what is empty then.
+
+    As it is where there is none.
+    """
     document = Document.parse(text)
     if not (_has(document.root, "measurement") and _has(_mapping(document.root, "measurement"), "force")):
         return text
-    force = _mapping(document.root, "measurement", "force")
-    return remove_entry(document, force, key) if key in force.entries else text
+    root, measurement = _mapping(document.root), _mapping(document.root, "measurement")
+    force = _mapping(measurement, "force")
+    if key not in force.entries:
+        return text
+    if len(force.entries) > 1:
+        return remove_entry(document, force, key)
+    if len(measurement.entries) > 1:
+        return remove_entry(document, measurement, "force")
+    return remove_entry(document, root, "measurement")
 
 
 def rename(text: str, name: str, comment: Iterable[str]) -> str:

@@ -448,6 +448,8 @@ def test_the_force_channel_gets_any_entry_and_another_one_in_its_place(before, k
         ("measurement: {force: {gain: 1.1}}\n", {"gain": 1.1}),
         ("measurement: {force: {lag: 2 ms, gain: 1.1}}\n", {"gain": 1.1}),
         ("measurement:\n  force:\n    gain: 1.1   # checked\n    lag: {start: 2 ms}\n", {"gain": 1.1}),
+        ("measurement: {force: {lag: 2 ms}}\n", {}),
+        ("measurement:\n  force:\n    lag: {start: 2 ms}\n", {}),
     ],
 )
 def test_an_entry_of_the_force_channel_goes_where_there_is_one(before, left):
@@ -455,6 +457,8 @@ def test_an_entry_of_the_force_channel_goes_where_there_is_one(before, left):
     found = {slot.path: slot.value.number for slot in read(text).slots() if slot.path.startswith("measurement")}
     assert found == {f"measurement.force.{name}": number for name, number in left.items()}
     assert comments(text) == comments(BLOCK + before)
+    again = add_measurement(text, "delay", "{start: 1 ms}")
+    assert "measurement.force.delay" in numbers(read(again))
 
 
 def test_a_json_text_gets_its_force_channel_too():

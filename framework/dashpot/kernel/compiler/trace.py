@@ -70,6 +70,15 @@ class CurveLaw:
             return argument * total
         return table(self.path, as_node(argument))
 
+    def slope(self, argument: Any) -> Node:
+        """The slope of the curve as a graph."""
+        if self.form == "table":
+            return table(self.path, as_node(argument), 1)
+        *lower, total = [power * number for power, number in enumerate(self.numbers, 1)]
+        for factor in reversed(lower):
+            total = factor + argument * total
+        return as_node(total)
+
 
 def trace_network(spec: NetworkSpec) -> tuple[TracedBranch, ...]:
     """The laws of all branches of a network with two ends, each along the motion of the driven one."""

@@ -20,6 +20,7 @@ Numbers = Mapping[str, Any]  # by path, each a number or one for each lane
 
 FAR, PAUSE, PAUSES = 1e3, 1e4, 20  # m, s, and how many of them to get there and to wait
 NOTHING = 1e-6  # of the largest force on the way: what is less has faded
+BESIDE = 1e-9  # of what is far: half the width over which a slope is taken
 LINE = (2e5, 2e6)  # stiffness and bend of what is still to come from data, N/m and N/m^2
 
 
@@ -95,15 +96,28 @@ def _bent_line(curve: Characteristic) -> Characteristic:
     return Characteristic(curve.curve, "polynomial", values, node=curve.node)
 
 
-def _curve(path: str, curve: Characteristic | None, numbers: Numbers) -> Callable[[Any], Any]:
+def _curve(path: str, curve: Characteristic | None, numbers: Numbers) -> _Curve:
     if curve is None:
-        return lambda argument: 1.0
+        return _Curve(lambda argument: 1.0)
     if curve.form == "constant":
-        return lambda argument: numbers[path] * argument
+        return _Curve(lambda argument: numbers[path] * argument)
     knots = [numbers[f"{path}[{number}]"] for number in range(len(curve.values))]
     if curve.form == "polynomial":
-        return lambda argument: sum(factor * argument**power for power, factor in enumerate(knots, 1))
-    return lambda argument: _read_table(curve, knots, argument)
+        return _Curve(lambda argument: sum(factor * argument**power for power, factor in enumerate(knots, 1)))
+    return _Curve(lambda argument: _read_table(curve, knots, argument))
+
+
+@dataclass(frozen=True)
+class _Curve:
+    value: Callable[[Any], Any]
+
+    def __call__(self, argument: Any) -> Any:
+        return self.value(argument)
+
+    def slope(self, argument: Any) -> Any:
+        """The slope, by a central difference over a width far below that of a curve."""
+        width = BESIDE * (FAR + np.abs(argument))
+        return (self.value(argument + width) - self.value(argument - width)) / (2.0 * width)
 
 
 def _read_table(curve: Characteristic, knots: Sequence[Any], argument: Any) -> Array:
