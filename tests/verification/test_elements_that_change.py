@@ -1,10 +1,11 @@
-"""Springs that relax along a curve, damping that fades, heat that makes soft, masses that rattle or slide."""
+"""Springs that relax and dashpots that go along a curve, damping that fades, heat that makes soft, masses that rattle or slide."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
+from scipy.interpolate import PchipInterpolator
 from verification.alone import network_of
 from verification.test_elements_with_memory import AMPLITUDE, OMEGA, march, orders, place, relative, speed
 from verification.truth.elements import integrate
@@ -48,6 +49,20 @@ def test_a_held_relaxing_spring_loses_its_force_by_its_time():
     found = network.simulate(network.prepare(drive_from_path(1e-3, 10e-3 * ramp, still, still)))
     assert found[60] / found[20] == pytest.approx(np.exp(-0.04 / 0.05), rel=1e-9)
     assert found[11] == pytest.approx(300.0, rel=0.02)
+
+
+KNOTS = np.array([-12.0, -4.0, 0.0, 3.0, 6.0, 12.0]) * 1e-3, np.array([-900.0, -150.0, 0.0, 60.0, 200.0, 1500.0])
+SLOPES = {
+    "2e4": np.poly1d([2e4]),
+    "{polynomial: [2e4, 3e6, 4e9]}": np.poly1d([12e9, 6e6, 2e4]),
+    f"{{deflection: {KNOTS[0].tolist()}, force: {KNOTS[1].tolist()}}}": PchipInterpolator(*KNOTS).derivative(),
+}
+
+
+@pytest.mark.parametrize(("curve", "slope"), SLOPES.items(), ids=["line", "polynomial", "table"])
+def test_a_proportional_damper_goes_with_the_slope_of_its_curve(curve, slope):
+    time, found = march("proportional_damper", 1e-3, stiffness=curve, time=2e-3)
+    assert found == pytest.approx(2e-3 * slope(place(time)) * speed(time), abs=1e-9 * np.abs(found).max())
 
 
 def test_a_fading_damper_follows_the_clock_and_nothing_else():

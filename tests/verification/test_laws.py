@@ -38,6 +38,7 @@ ODD = [
     "maxwell",
     "mullins",
     "power_law_damper",
+    "proportional_damper",
     "prandtl",
     "preload_creep",
     "quadratic_damper",

@@ -7,6 +7,7 @@ from math import isfinite
 
 import numpy as np
 
+from dashpot.contract.cause import Cause
 from dashpot.diagnose.term import Model
 
 FALSE_ALARMS = 0.01  # of data sets in which nothing is hidden
@@ -45,6 +46,15 @@ class Odds:
 def agreed_by_chance(groups: int) -> float:
     """How likely a law that is none predicts so many groups of runs all better: each by one half (sign test)."""
     return 0.5**groups
+
+
+def against_unknown(cause: type[Cause]) -> float:
+    """The prior odds of a cause against a law of the specimen that nobody has named.
+
+    That the phase and the inertia are the same in every run tells a fault of the measurement from the laws that are
+    known, but not from every law: a damping in proportion to the stiffness shifts the phase as an early channel does.
+    """
+    return RIG_ODDS if cause.kind == "measurement" and cause.evidence_of == "phase" else 1.0
 
 
 def share_of_both(explained: float, unexplained: float, odds: float = 1.0) -> float:

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from dashpot.diagnose.look import Look
-from dashpot.diagnose.odds import RIG_ODDS, agreed_by_chance, share_of_both
+from dashpot.diagnose.odds import against_unknown, agreed_by_chance, share_of_both
 from dashpot.diagnose.score import nats
 from dashpot.diagnose.term import Model, Term
 
@@ -166,17 +166,9 @@ class Pursuit:
         if less is None or unexplained == 0.0:
             return float(alone > 0.0 or less is None)
         by_chance = agreed_by_chance(self.look.folds.groups)
+        odds = next(against_unknown(term.cause) for term in self.best.model.causes if term.name == name)
         rivals = [self._ahead_of(other, unexplained) for other in self._without_name(name)]
-        return min([share_of_both(alone, unexplained, self._odds(name)), 1.0 - by_chance, *rivals])
-
-    def _odds(self, name: tuple[str, str]) -> float:
-        """The prior odds of a cause against a law of the specimen that nobody has named.
-
-        A phase and a mass that are the same in every run tell a fault of the measurement from the laws that are known,
-        and this one may have them: the force of damping in proportion to the stiffness is that of an early channel.
-        """
-        cause = next(term.cause for term in self.best.model.causes if term.name == name)
-        return RIG_ODDS if cause.kind == "measurement" and cause.evidence_of == "phase" else 1.0
+        return min([share_of_both(alone, unexplained, odds), 1.0 - by_chance, *rivals])
 
     def _ahead_of(self, other: Scored, unexplained: float) -> float:
         """The probability of the best structure against one as simple, beside a share ``unexplained`` of the square.

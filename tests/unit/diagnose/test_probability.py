@@ -9,10 +9,12 @@ import pytest
 from dashpot.diagnose.diagnosis import Diagnosis
 from dashpot.diagnose.leftover import Leftover
 from dashpot.diagnose.named import is_known, standing_of
+from dashpot.diagnose.odds import RIG_ODDS
 from dashpot.diagnose.pursuit import Pursuit, Scored, Without
 
 FOLDS, SAMPLES = 8, 100.0
 LOOK = SimpleNamespace(folds=SimpleNamespace(groups=FOLDS))  # every fold is a group of runs
+SPECIMEN = SimpleNamespace(kind="specimen", evidence_of="phase")
 WEIGHTS = np.random.default_rng(0).exponential(size=(2000, FOLDS))
 
 
@@ -21,11 +23,12 @@ def squares_of(nats):
     return np.exp(2.0 * np.broadcast_to(np.asarray(nats, dtype=float), FOLDS) / SAMPLES)
 
 
-def scored(nats, *names, price=0.0):
+def scored(nats, *names, price=0.0, cause=SPECIMEN):
     """A structure with so many nats in each fold."""
     each = squares_of(nats)
-    terms = tuple(SimpleNamespace(name=(name, "")) for name in names)
-    model = SimpleNamespace(names=tuple(term.name for term in terms), terms=terms, count=lambda number: 1)
+    terms = tuple(SimpleNamespace(name=(name, ""), cause=cause) for name in names)
+    names = tuple(term.name for term in terms)
+    model = SimpleNamespace(names=names, terms=terms, causes=terms, count=lambda number: 1)
     return Scored(model, each, 0.0, each, np.full(FOLDS, SAMPLES), price)
 
 
@@ -92,6 +95,15 @@ def test_a_cause_has_its_share_of_what_it_and_an_unknown_law_explain(unexplained
     """The square of the residual grows by e = exp(2 nats / samples) - 1 without it; more runs are the same specimen."""
     expected = its_share(np.expm1(2.0 * 10.0 / SAMPLES), unexplained)
     assert of_groups(groups, 10.0, unexplained) == pytest.approx(expected)
+
+
+@pytest.mark.parametrize(("evidence_of", "odds"), [("phase", RIG_ODDS), ("range", 1.0), ("order", 1.0)])
+def test_an_unknown_law_may_have_the_phase_of_a_fault_and_is_likelier(evidence_of, odds):
+    """Bayes' rule: what both explain, weighted by what is known of them beforehand; without an unknown law, nothing."""
+    rig = SimpleNamespace(kind="measurement", evidence_of=evidence_of)
+    found = pursuit(scored(0.0, "a", cause=rig), [scored(10.0)])
+    assert found.probability(("a", ""), 0.2) == pytest.approx(its_share(odds * np.expm1(20.0 / SAMPLES), 0.2))
+    assert found.probability(("a", ""), 0.0) == 1.0
 
 
 @pytest.mark.parametrize(("groups", "agree"), [(1, 0.5), (2, 0.75), (3, 0.875), (4, 0.9375), (5, 0.96875)])
