@@ -1,4 +1,4 @@
-"""Springs that relax and dashpots that go along a curve, damping that fades, heat that makes soft, masses that rattle or slide."""
+"""Springs and dashpots that go along a curve, damping that fades, heat that makes soft, masses that rattle or slide."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Relaxation and damping along the curve of a spring: the cure is what the columns showed, a straight spring has none."""
+"""Relaxation and damping along the curve of a spring: the cure is what the columns showed; a straight one has none."""
 
 import numpy as np
 import pytest
