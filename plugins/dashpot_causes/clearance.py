@@ -9,9 +9,11 @@ import numpy as np
 from dashpot.contract.cause import Cause, Suspect, View, added_branch
 from dashpot.model.network import NetworkSpec
 
+UNITS = {"stiffness": "N/m", "damping": "N*s/m", "limit": "N", "gap": "m"}
 PLACES = 9
 SLIDING = np.array([0.005, 0.03, 0.15])  # of the stroke: how far the spring behind the play gives before it slides
 PLAIN = 0.01  # of the stroke: friction behind less play cannot be told from friction
+PHASES = np.array([0.1, 0.4, 1.5])  # tangent of the loss angle of rubber behind the play at the end of the band
 BEYOND = 1.05  # times that: play that a refit leaves at its least is none
 
 
@@ -32,30 +34,31 @@ class Clearance(Cause):
     }
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
-        """A spring behind play, or with a dead zone around zero; friction behind play."""
+        """A spring behind play, or with a dead zone around zero; rubber or friction behind play."""
         gaps = tuple(np.geomspace(2e-3 * view.stroke, 0.3 * view.stroke, PLACES))
-        units = {"stiffness": "N/m", "gap": "m"}
-        yield added_branch("backlash", "clearance", gaps, lambda k, gap: {"stiffness": k, "gap": gap}, units)
+        yield added_branch("backlash", "clearance", gaps, lambda k, gap: {"stiffness": k, "gap": gap}, UNITS)
         low, high = view.reach
-        if low < 0.0 < high:
-            yield added_branch("clearance", "clearance", gaps, lambda k, gap: {"stiffness": k, "gap": gap}, units)
         least = PLAIN * view.stroke
         loose = tuple(gap for gap in gaps[:-1] if gap > least)
+
+        def has_play(found: Mapping[str, float]) -> bool:
+            return all(gap > BEYOND * least for name, gap in found.items() if name.startswith("gap"))
+
+        def behind(element: str, numbers: Callable[[float, float], Mapping[str, float]]) -> Suspect:
+            within = {"gap": (least, view.stroke)}
+            return added_branch(element, "clearance", loose, numbers, UNITS, bounds=within, admits=has_play)
+
+        if low < 0.0 < high:
+            yield added_branch("clearance", "clearance", gaps, lambda k, gap: {"stiffness": k, "gap": gap}, UNITS)
+            for time in PHASES / (2.0 * np.pi * view.highest_frequency):
+                yield behind("loose_kelvin_voigt", _rubber(time))
         for travel in SLIDING * view.stroke:
-            yield added_branch(
-                "loose_friction",
-                "clearance",
-                loose,
-                _loose(travel),
-                {**units, "limit": "N"},
-                bounds={"gap": (least, view.stroke)},
-                admits=lambda found: all(gap > BEYOND * least for gap in _gaps(found)),
-            )
+            yield behind("loose_friction", _friction(travel))
 
 
-def _gaps(found: Mapping[str, float]) -> list[float]:
-    return [number for name, number in found.items() if name.startswith("gap")]
-
-
-def _loose(travel: float) -> Callable[[float, float], Mapping[str, float]]:
+def _friction(travel: float) -> Callable[[float, float], Mapping[str, float]]:
     return lambda limit, gap: {"limit": limit, "stiffness": limit / travel, "gap": gap}
+
+
+def _rubber(time: float) -> Callable[[float, float], Mapping[str, float]]:
+    return lambda stiffness, gap: {"stiffness": stiffness, "damping": stiffness * time, "gap": gap}

@@ -19,6 +19,7 @@ FAMILIES: Mapping[str, tuple[str, ...]] = {
         "rigid_stop",
         "clearance",
         "backlash",
+        "loose_kelvin_voigt",
         "gas_spring",
         "warm_gas_spring",
         "constant_force",
