@@ -82,10 +82,30 @@ def test_the_highest_coherent_frequency_is_that_of_the_motion(hertz):
     assert found * RATE == pytest.approx(hertz, abs=1.1 * 16 * RATE / COUNT)
 
 
+@pytest.mark.parametrize("gap", [0.0, 0.4], ids=["spring", "play"])
+@pytest.mark.parametrize("count", [6_000, 20_000, 40_000, 99_000])
+def test_a_sweep_keeps_its_fast_end(count, gap):
+    """At its frequency there are harmonics of earlier times in the force, which a path with play does not have."""
+    rate, first, last = 1000.0, 1.0, 25.0
+    rng = np.random.default_rng(seed_of(f"sweep {count} {gap}"))
+    time, octaves = np.arange(count) / rate, np.log(last / first) * rate / count
+    hertz = first * np.exp(octaves * time)
+    angle = 2.0 * np.pi * (hertz - first) / octaves
+    x, v = 0.5e-3 * np.sin(angle), 0.5e-3 * 2.0 * np.pi * hertz * np.cos(angle)
+    force = 300e3 * (x - np.clip(x, -gap * 0.5e-3, gap * 0.5e-3)) + 2.0 * rng.standard_normal(count)
+    shown = x + 1e-6 * rng.standard_normal(count)
+    found = drive_from_samples(1.0 / rate, shown, force=force).velocity
+    fast = slice(-count // 4, -100)
+    assert highest_coherent(shown, force) * rate == pytest.approx(last, rel=0.15)
+    assert np.sqrt(np.mean((found - v)[fast] ** 2) / np.mean(v[fast] ** 2)) < 0.01
+
+
 def test_signals_that_have_nothing_in_common_are_coherent_by_chance_in_one_of_a_hundred_records():
     rng = np.random.default_rng(seed_of("by chance"))
     found = sum(highest_coherent(*rng.standard_normal((2, 500))) is not None for _ in range(1000))
     assert 1 <= found <= 22  # 10 expected; more than 22 in three of ten thousand
+    found = sum(highest_coherent(*rng.standard_normal((2, 9000))) is not None for _ in range(100))
+    assert found <= 6  # one expected
 
 
 def test_a_short_or_silent_record_tells_nothing():

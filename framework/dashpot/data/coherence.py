@@ -2,50 +2,77 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from functools import lru_cache
 
 import numpy as np
+from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
 
 TAPERS, BANDWIDTH = 9, 8.0  # all but free of leakage; half the width in lines of the band of each
-FEWEST, LONGEST = 128, 1 << 15  # samples of a piece
+FEWEST = 128  # samples of a record, and of a piece
+STEADY, PASSING = 1 << 15, 1 << 12  # samples of a piece at most: for what goes on all along, and for a sweep
+PART = 8  # of a record: a sweep is at each frequency for less
 BY_CHANCE = 0.01  # of records of which some line seems coherent that is not
 
 
 def highest_coherent(x: Array, force: Array) -> float | None:
     """The highest frequency, in periods a sample, at which a path (n,) and the force (n,) are coherent.
 
-    None where none is, or where the record is too short to tell. The squared coherence of two signals that have nothing
-    in common, averaged over m independent spectra, exceeds c with a probability of (1 - c)^(m - 1). Sources: Thomson,
-    Proceedings of the IEEE 70 (1982) 1055, for spectra by several tapers; Carter, Knapp and Nuttall, IEEE Transactions
-    on Audio and Electroacoustics 21 (1973) 337, for the distribution.
+    That is at any time, or all along: a sweep is at each frequency but for a while, and at other times there are the
+    harmonics of its force. None where none is, or where the record is too short to tell. The squared coherence of two
+    signals that have nothing in common, averaged over m independent spectra, exceeds c with a probability of
+    (1 - c)^(m - 1). Sources: Thomson, Proceedings of the IEEE 70 (1982) 1055, for spectra by several tapers; Carter,
+    Knapp and Nuttall, IEEE Transactions on Audio and Electroacoustics 21 (1973) 337, for the distribution.
     """
-    length = min(x.size, LONGEST)
-    if length < FEWEST:
+    if x.size < FEWEST:
         return None
-    across, own, others = _spectra(x, force, length)
-    with np.errstate(invalid="ignore", divide="ignore"):  # lines without any power
-        found = np.abs(across) ** 2 / (own * others)
-    independent = TAPERS * (x.size // length)
-    least = 1.0 - (BY_CHANCE / found.size) ** (1.0 / (independent - 1.0))
+    spectra = list(_spectra(x, force))
+    lines = sum(coherence.size for coherence, _ in spectra)
+    return max((each for each in (_highest(*one, lines) for one in spectra) if each is not None), default=None)
+
+
+def _highest(coherence: Array, independent: float, lines: int) -> float | None:
+    """The highest frequency of which a squared coherence (f,) shows more than chance, which spreads it by a band.
+
+    Chance has so many ``lines`` in all to choose from.
+    """
+    least = 1.0 - (BY_CHANCE / lines) ** (1.0 / (independent - 1.0))
     # next to the Nyquist frequency spectra repeat themselves, so that fewer of them are independent
-    coherent = np.flatnonzero(found[: -int(BANDWIDTH)] > least)
-    return float(coherent[-1] / length) if coherent.size else None
+    coherent = np.flatnonzero(coherence[: -int(BANDWIDTH)] > least)
+    return max(coherent[-1] - BANDWIDTH, 0.0) * 0.5 / (coherence.size - 1) if coherent.size else None
 
 
-def _spectra(x: Array, force: Array, length: int) -> tuple[NDArray[np.complex128], Array, Array]:
-    """The cross-spectrum (f,) of two signals, and the power of each, summed over pieces and tapers."""
+def _spectra(x: Array, force: Array) -> Iterator[tuple[Array, float]]:
+    """Squared coherences (f,) of all long pieces together and of each short one, and of how many independent spectra."""
+    length = min(x.size, STEADY)
+    pieces = [_tapered(signal, length) for signal in (x, force)]
+    yield _coherence(*(each.reshape(-1, each.shape[-1]) for each in pieces)), TAPERS * x.size / length
+    short = min(x.size // PART, PASSING)
+    if short >= FEWEST:
+        for path, answer in zip(*(_tapered(signal, short) for signal in (x, force)), strict=True):
+            yield _coherence(path, answer), float(TAPERS)
+
+
+def _tapered(signal: Array, length: int) -> NDArray[np.complex128]:
+    """The spectra (pieces, tapers, f) of pieces that overlap by half, or a little more, from one end to the other."""
     from scipy.signal import detrend
 
-    across, own, others = np.zeros(length // 2 + 1, dtype=complex), *np.zeros((2, length // 2 + 1))
-    for start in range(0, x.size - length + 1, length):
-        path, answer = (np.fft.rfft(_tapers(length) * detrend(signal[start : start + length])) for signal in (x, force))
-        across += np.sum(path * answer.conj(), axis=0)
-        own += np.sum(np.abs(path) ** 2, axis=0)
-        others += np.sum(np.abs(answer) ** 2, axis=0)
-    return across, own, others
+    steps = -(-2 * (signal.size - length) // length)
+    starts = np.linspace(0, signal.size - length, steps + 1).astype(int)
+    pieces = detrend(sliding_window_view(signal, length)[starts])
+    found: NDArray[np.complex128] = np.fft.rfft(pieces[:, None] * _tapers(length))
+    return found
+
+
+def _coherence(path: NDArray[np.complex128], answer: NDArray[np.complex128]) -> Array:
+    """The squared coherence (f,) of spectra (m, f)."""
+    across = np.abs(np.sum(path * answer.conj(), axis=0)) ** 2
+    with np.errstate(invalid="ignore", divide="ignore"):  # lines without any power
+        found: Array = across / (np.sum(np.abs(path) ** 2, axis=0) * np.sum(np.abs(answer) ** 2, axis=0))
+    return found
 
 
 @lru_cache(maxsize=8)
