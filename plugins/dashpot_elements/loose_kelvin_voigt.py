@@ -14,8 +14,7 @@ class LooseKelvinVoigt(Element):
     """A spring and a dashpot side by side behind play: F = stiffness s + damping s' where they touch, s = |x| - gap.
 
     Where the drive goes back faster than the part follows, they part without force, and s fades by the time
-    damping/stiffness until they touch again. A touch within a step counts from its end, so that the step is of first
-    order there.
+    damping/stiffness until they touch again. Exact but for a step within which they part.
     """
 
     picture = Series(Symbol.PLAY, Symbol.SPRING, Symbol.DASHPOT)

@@ -162,6 +162,24 @@ def test_rigid_friction_behind_play_is_that_of_the_spring_in_series():
     assert rms(found - exact) < bound + 1.01 * k / 1e10 * rms(exact)
 
 
+LOOSE = """
+clamp:
+  series:
+    play: {element: clearance, stiffness: 1e12 N/m, gap: 0.4 mm}
+    rubber: {parallel: {k: {element: spring, stiffness: 1e5 N/m}, d: {element: damper, damping: 800 N*s/m}}}
+"""
+
+
+def test_rubber_behind_play_is_a_spring_and_a_damper_in_series_with_rigid_play(state):
+    at, motion = times(1.0), drawn("loose rubber")
+    exact, bound = solved(system("", LOOSE), at, motion, 256)
+    alone = network_of("loose_kelvin_voigt", stiffness="1e5 N/m", damping="800 N*s/m", gap="0.4 mm")
+    found = alone.simulate(alone.prepare(drive_of(motion, at)))
+    state(f"rubber behind play: {rms(found - exact) / rms(exact):.1e} of the RMS force")
+    assert rms(found - exact) < bound + 1e-6 * rms(exact)
+    assert np.mean(found == 0.0) > 0.1  # it parts and touches
+
+
 LEG = """
 spring: {{element: spring, stiffness: {k} N/m, between: [base, hub]}}
 damper: {{element: damper, damping: {c} N*s/m, between: [base, hub]}}

@@ -46,7 +46,7 @@ def _highest(coherence: Array, independent: float, lines: int) -> float | None:
 
 
 def _spectra(x: Array, force: Array) -> Iterator[tuple[Array, float]]:
-    """Squared coherences (f,) of all long pieces together and of each short one, and of how many independent spectra."""
+    """Squared coherences (f,) of all long pieces together and of each short one, and how many spectra are in each."""
     length = min(x.size, STEADY)
     pieces = [_tapered(signal, length) for signal in (x, force)]
     yield _coherence(*(each.reshape(-1, each.shape[-1]) for each in pieces)), TAPERS * x.size / length
