@@ -50,7 +50,7 @@ def damped(view: View, network: NetworkSpec, straight: float) -> Iterator[Suspec
         if not steepness.min() < straight * steepness.max():
             continue
         yield Suspect(
-            f"in proportion to the slope of {spring.branch.name}",
+            f"damping in proportion to the slope of {spring.branch.name}",
             (0.0,),
             law.columns,
             law.extend,

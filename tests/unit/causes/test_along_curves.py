@@ -19,7 +19,7 @@ def forms(text, cause="relaxation", begins="along"):
 
 
 def damped(text):
-    return forms(text, "preload_dependent_damping", "in proportion")
+    return forms(text, "preload_dependent_damping", "damping in proportion")
 
 
 def bent(curve):
