@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
@@ -30,30 +31,37 @@ def highest_coherent(x: Array, force: Array) -> float | None:
     if x.size < FEWEST:
         return None
     spectra = list(_spectra(x, force))
-    lines = sum(coherence.size for coherence, _ in spectra)
-    return max((each for each in (_highest(*one, lines) for one in spectra) if each is not None), default=None)
+    lines = sum(one.coherence.size for one in spectra)
+    return max((each for each in (one.highest(lines) for one in spectra) if each is not None), default=None)
 
 
-def _highest(coherence: Array, independent: float, lines: int) -> float | None:
-    """The highest frequency of which a squared coherence (f,) shows more than chance, which spreads it by a band.
+@dataclass(frozen=True, eq=False)
+class _Spectrum:
+    """A squared ``coherence`` (f,) of so many ``independent`` spectra, which show a line on so many beside it."""
 
-    Chance has so many ``lines`` in all to choose from.
-    """
-    least = 1.0 - (BY_CHANCE / lines) ** (1.0 / (independent - 1.0))
-    # next to the Nyquist frequency spectra repeat themselves, so that fewer of them are independent
-    coherent = np.flatnonzero(coherence[: -int(BANDWIDTH)] > least)
-    return max(coherent[-1] - BANDWIDTH, 0.0) * 0.5 / (coherence.size - 1) if coherent.size else None
+    coherence: Array
+    independent: float
+    beside: float = 0.0
+
+    def highest(self, lines: int) -> float | None:
+        """The highest frequency of which it shows more than chance, of so many ``lines`` in all; None for none."""
+        least = 1.0 - (BY_CHANCE / lines) ** (1.0 / (self.independent - 1.0))
+        # next to the Nyquist frequency spectra repeat themselves, so that fewer of them are independent
+        coherent = np.flatnonzero(self.coherence[: -int(BANDWIDTH)] > least)
+        if not coherent.size:
+            return None
+        return float(0.5 * max(coherent[-1] - self.beside, 0.0) / (self.coherence.size - 1))
 
 
-def _spectra(x: Array, force: Array) -> Iterator[tuple[Array, float]]:
-    """Squared coherences (f,) of all long pieces together and of each short one, and how many spectra are in each."""
+def _spectra(x: Array, force: Array) -> Iterator[_Spectrum]:
+    """Those of all long pieces together, whose bands are narrow, and of each short one, whose bands are not."""
     length = min(x.size, STEADY)
     pieces = [_tapered(signal, length) for signal in (x, force)]
-    yield _coherence(*(each.reshape(-1, each.shape[-1]) for each in pieces)), TAPERS * x.size / length
+    yield _Spectrum(_coherence(*(each.reshape(-1, each.shape[-1]) for each in pieces)), TAPERS * x.size / length)
     short = min(x.size // PART, PASSING)
     if short >= FEWEST:
         for path, answer in zip(*(_tapered(signal, short) for signal in (x, force)), strict=True):
-            yield _coherence(path, answer), float(TAPERS)
+            yield _Spectrum(_coherence(path, answer), TAPERS, BANDWIDTH)
 
 
 def _tapered(signal: Array, length: int) -> NDArray[np.complex128]:
