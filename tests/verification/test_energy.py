@@ -22,6 +22,8 @@ SEED = int(RNG.integers(2**32))
 DT = 1e-3
 # a contact that is shorter than a step has no work that could be counted; see test_elements_that_change
 STRUCK = {"rattling_mass"}
+# a force that jumps at a touch has a work that is right to a step
+PAIRS = {"loose_kelvin_voigt": 8}
 REMEMBERING = sorted(word for word, law in REGISTRY.elements.items() if law.passive and law.declares.states)
 REMEMBERING = [word for word in REMEMBERING if word not in STRUCK]
 QUICK = {"kelvin_voigt", "eub", "quarter_car"}
@@ -150,7 +152,8 @@ def test_a_passive_element_never_gives_dissipated_work_back(word, rng):
     counter = EnergyCounter.of(specimen.spec)
     drive = random_drive(rng, "multisine", sizes.length, sizes.time, 2400, sizes.time / 40.0)
     for values in specimen.values:
-        course = [counter.balance(_part(drive, count), values) for count in range(300, 2401, 150)]
+        parts = [_part(drive, count) for count in range(300, 2401, 150)]
+        course = [counter.balance(part, values, PAIRS.get(word, 1)) for part in parts]
         lost, slack = np.array([b.dissipated for b in course]), 10.0 * max(b.error for b in course)
         work = np.max(np.abs([b.put_in for b in course]))
         assert np.min(np.diff(lost)) >= -slack - 1e-9 * work
