@@ -13,7 +13,9 @@ from dashpot.model.sites import Site
 class Candidate:
     """A form of a cause with the place of its columns among all; ``site`` is where in a network with nodes.
 
-    ``twin`` is how many before it have the same form and grid, and differ in what the grid does not have.
+    ``twin`` is how many before it have the same form and grid, and differ in what the grid does not have. One that is
+    not ``provable`` is a fault that only a data sheet can tell, where there is none: it is a rival of other faults and
+    no more.
     """
 
     cause: type[Cause]
@@ -21,6 +23,7 @@ class Candidate:
     columns: slice
     site: Site | None = None
     twin: int = 0
+    provable: bool = True
 
     @property
     def name(self) -> tuple[str, str]:

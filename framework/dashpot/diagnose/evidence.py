@@ -270,7 +270,7 @@ def is_within_the_data_sheet(refitter: Refitter, scores: Scores, number: int) ->
     """Whether the data sheet of the force channel admits what was found."""
     model = scores.look.model
     quantity = _suspect(model, number).quantity
-    return model.numbers_of(number)[quantity] <= refitter.sheet[quantity]
+    return model.numbers_of(number)[quantity] <= refitter.sheet.get(quantity, 0.0)
 
 
 def _suspect(model: Model, number: int) -> Suspect:

@@ -37,7 +37,7 @@ def find_limits(look: Look, relevance: float) -> list[tuple[Candidate, Limit | N
     odds, first = look.odds, look.layout.first_candidate
     left = look.front.beside().squares
     noise = np.sqrt(float(left[0]) / float(look.samples.sum()))
-    for candidate in look.candidates:
+    for candidate in (candidate for candidate in look.candidates if candidate.provable):
         _, best = found.setdefault(candidate.name, (candidate, None))
         for place in range(candidate.columns.start, candidate.columns.stop):
             at = first + place

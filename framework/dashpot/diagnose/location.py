@@ -68,8 +68,8 @@ def gather_candidates(
 ) -> tuple[list[Candidate], tuple[tuple[str, str], ...]]:
     """All forms of all causes that act in every run alike, and the causes that cannot be tried with the reason.
 
-    What only a data sheet can tell is tried where the ``sheet`` of the force channel names its quantity. Forms that are
-    ``able`` to be tried are not examined again.
+    What only a data sheet can tell is provable where the ``sheet`` of the force channel names its quantity. Forms that
+    are ``able`` to be tried are not examined again.
     """
     able = set() if able is None else able
     found: list[Candidate] = []
@@ -82,11 +82,11 @@ def gather_candidates(
                 unavailable.append((cause.word, str(error)))
                 continue
             for suspect in suspects:
-                if cause.kind == "measurement" and cause.evidence_of == "data_sheet" and suspect.quantity not in sheet:
-                    continue
+                of_sheet = cause.kind == "measurement" and cause.evidence_of == "data_sheet"
+                provable = not of_sheet or suspect.quantity in sheet
                 alike = cause, location.site, suspect.form, suspect.grid
                 columns = slice(first, first + len(suspect.grid))
-                found.append(Candidate(cause, suspect, columns, location.site, twins[alike]))
+                found.append(Candidate(cause, suspect, columns, location.site, twins[alike], provable))
                 twins[alike] += 1
                 first = columns.stop
     return found, tuple(dict.fromkeys(unavailable))

@@ -21,7 +21,7 @@ from dashpot.diagnose.location import of_names
 from dashpot.diagnose.look import Look, look_at, look_settled
 from dashpot.diagnose.odds import NUMBER_ODDS, Odds
 from dashpot.diagnose.pursuit import NAMED, Form, Pursuit, Scored, Without
-from dashpot.diagnose.score import Scores, Structure
+from dashpot.diagnose.score import Added, Scores, Structure
 from dashpot.diagnose.search import other_forms, search
 from dashpot.diagnose.term import Model, Term, renamed
 from dashpot.diagnose.trials import Trials, scored_by
@@ -296,16 +296,20 @@ class Pursuer:
         """For each cause the best structures with others in the place of its terms, refitted: as simple, and richer.
 
         What is as simple, no less likely beforehand, may make a name less sure; what has more numbers, if it is better.
+        In the place of all faults of the measurement those that nothing can prove are refitted as well.
         """
         model = look.model
         others = tuple(one for one in look.candidates if one.name not in model.names)
         scores = Scores(replace(look, candidates=others))
-        waiting = {}
+        waiting: dict[tuple[Term, str], list[Structure]] = {}
+        among = _not_provable(scores)
         for term in {term.name: term for term in reversed(model.causes)}.values():
             ranked = _in_place_of(scores, term)
-            waiting[term, True] = [one for one in ranked if scores.price(one) <= 0.0][:TRIED]
-            waiting[term, False] = [one for one in ranked if scores.price(one) > 0.0][:TRIED]
-        found: dict[tuple[Term, bool], Scored] = {}
+            waiting[term, "as simple"] = [one for one in ranked if scores.price(one) <= 0.0][:TRIED]
+            waiting[term, "richer"] = [one for one in ranked if scores.price(one) > 0.0][:TRIED]
+            if term.kind == "measurement":
+                waiting[term, "not provable"], among = among, []
+        found: dict[tuple[Term, str], Scored] = {}
         while few := [(key, left.pop(0)) for key, left in waiting.items() if left and key not in found]:
             trials = self.trials.refitted(scores, [one for _, one in few])
             found.update({key: trial for (key, _), trial in zip(few, trials, strict=True) if trial})
@@ -339,6 +343,15 @@ def _in_place_of(scores: Scores, term: Term) -> list[Structure]:
     ranked = [one for one in search(scores, stay, gone) if 0 < len(one.added) <= len(gone)]
     different = {_key(scores, one): one for one in reversed(ranked)}
     return sorted(different.values(), key=scores.score)
+
+
+def _not_provable(scores: Scores) -> list[Structure]:
+    """The structures with a fault that nothing can prove in the place of all faults of the measurement."""
+    gone = frozenset(number for number, kind in enumerate(scores.kinds) if kind == "measurement")
+    rivals = [(k, each) for k, each in enumerate(scores.look.candidates) if not each.provable] if gone else []
+    forms = [Added(k, (place,)) for k, each in rivals for place in range(len(each.suspect.grid))]
+    found = [Structure(gone, frozenset({form})) for form in forms]
+    return sorted((one for one in found if np.isfinite(scores.score(one))), key=scores.score)
 
 
 def _weakness(removal: tuple[float, Scored]) -> tuple[float, float]:

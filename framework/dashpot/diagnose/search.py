@@ -94,7 +94,7 @@ def additions(scores: Scores, structure: Structure) -> list[Added]:
     found = []
     for k, candidate in enumerate(scores.look.candidates):
         open_to = [number not in taken for number in candidate.suspect.each_dependent]
-        if k not in used and (best := _places(candidate, left, open_to)):
+        if candidate.provable and k not in used and (best := _places(candidate, left, open_to)):
             added = Added(k, best[1])
             found.append((best[0] - scores.joining(added), added))
     found.sort(key=lambda pair: -round(pair[0] / SAME))

@@ -101,7 +101,10 @@ class Trials:
         return found
 
     def _refitted(self, scores: Scores, asked: _Asked) -> Scored | None:
-        """A model with other terms, refitted; None where that cannot be written."""
+        """A model with other terms, refitted; None where that cannot be written.
+
+        Or where it is not stable, as with a mass below zero on a fixture that gives way.
+        """
         look, new = scores.look, {term for term in asked.terms if term not in scores.look.model.terms}
         try:
             kept = self._writable(asked)
@@ -112,8 +115,8 @@ class Trials:
         if found is None:
             return None
         seen, lacking = found
-        unproven = frozenset(one.form for one in lacking)
-        return replace(scored_by(seen, scores.odds), unproven=unproven)
+        scored = replace(scored_by(seen, scores.odds), unproven=frozenset(one.form for one in lacking))
+        return scored if np.isfinite(scored.score) else None
 
     def _writable(self, asked: _Asked) -> Sequence[Part]:
         """All terms, without those of the model that cannot be written any more beside new ones."""

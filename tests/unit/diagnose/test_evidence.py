@@ -6,6 +6,7 @@ from types import MappingProxyType
 import numpy as np
 import pytest
 from scipy.signal import lfilter
+from unit.diagnose import laws
 from unit.diagnose.rig import (
     MOTIONS,
     NETWORK,
@@ -25,6 +26,7 @@ from dashpot.diagnose.evidence import has_evidence, is_determined
 from dashpot.diagnose.folds import folds_of
 from dashpot.diagnose.look import look_at
 from dashpot.diagnose.score import Added, Scores, Structure
+from dashpot.diagnose.search import additions
 from dashpot.diagnose.trials import terms_of
 from dashpot.model.reading import parse_network
 
@@ -170,7 +172,24 @@ def test_a_fixture_gives_way_within_the_data_sheet(most, admitted):
     assert proven(dataset(soft_fixture), "fixture_compliance", {"compliance": most}) is admitted
 
 
-def test_without_a_data_sheet_no_fixture_is_suspected():
+def test_without_a_data_sheet_a_fixture_is_not_proposed():
     made = bench(dataset(soft_fixture))
     folds = folds_of(made.refitter.runs, made.groups)
-    assert look_at(made.refitter, made.model, causes("fixture_compliance"), folds).candidates == ()
+    scores = Scores(look_at(made.refitter, made.model, causes("fixture_compliance"), folds))
+    assert len(scores.look.candidates) == 1 and additions(scores, Structure()) == []
+
+
+def rigidly_held(motion):
+    """The cubic spring and the dashpot of ``laws.soft_fixture`` (n,) N."""
+    return STIFFNESS * motion.x() + 1.2e9 * motion.x() ** 3 + 1500.0 * motion.v()
+
+
+@pytest.mark.parametrize("law, is_late", [(laws.soft_fixture, False), (late(rigidly_held, 1e-3), True)])
+def test_a_soft_fixture_without_a_data_sheet_is_a_rival_of_a_late_channel(law, is_late):
+    """Where the specimen is stiffer more of its damping is lost in the fixture, as with a channel that is late."""
+    network, words = parse_network(laws.BENT, REGISTRY.elements), ("delay", "moving_mass", "fixture_compliance")
+    registry = replace(REGISTRY, causes={word: REGISTRY.causes[word] for word in words})
+    found = diagnose(network, dataset(law, motions=laws.GRID), registry=registry).as_dict()
+    delay = next(each for each in found["causes"] if each["cause"] == "delay")
+    assert delay["accepted"] is is_late
+    assert [rival["cause"] for rival in delay["rivals"]] == ([] if is_late else ["fixture_compliance"])
