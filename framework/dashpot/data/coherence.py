@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 Array = NDArray[np.float64]
@@ -56,30 +55,33 @@ class _Spectrum:
 def _spectra(x: Array, force: Array) -> Iterator[_Spectrum]:
     """Those of all long pieces together, whose bands are narrow, and of each short one, whose bands are not."""
     length = min(x.size, STEADY)
-    pieces = [_tapered(signal, length) for signal in (x, force)]
-    yield _Spectrum(_coherence(*(each.reshape(-1, each.shape[-1]) for each in pieces)), TAPERS * x.size / length)
+    yield _Spectrum(_coherence(np.sum([*_products(x, force, length)], axis=0)), TAPERS * x.size / length)
     short = min(x.size // PART, PASSING)
     if short >= FEWEST:
-        for path, answer in zip(*(_tapered(signal, short) for signal in (x, force)), strict=True):
-            yield _Spectrum(_coherence(path, answer), TAPERS, BANDWIDTH)
+        for products in _products(x, force, short):
+            yield _Spectrum(_coherence(products), TAPERS, BANDWIDTH)
 
 
-def _tapered(signal: Array, length: int) -> NDArray[np.complex128]:
-    """The spectra (pieces, tapers, f) of pieces that overlap by half, or a little more, from one end to the other."""
+def _products(x: Array, force: Array, length: int) -> Iterator[NDArray[np.complex128]]:
+    """Cross-spectrum and powers (3, f) of both signals in pieces, summed over the tapers.
+
+    The pieces overlap by half, or a little more, from one end to the other.
+    """
     from scipy.signal import detrend
 
-    steps = -(-2 * (signal.size - length) // length)
-    starts = np.linspace(0, signal.size - length, steps + 1).astype(int)
-    pieces = detrend(sliding_window_view(signal, length)[starts])
-    found: NDArray[np.complex128] = np.fft.rfft(pieces[:, None] * _tapers(length))
-    return found
+    steps = -(-2 * (x.size - length) // length)
+    for start in np.linspace(0, x.size - length, steps + 1).astype(int):
+        pieces = (detrend(signal[start : start + length]) for signal in (x, force))
+        path, answer = (np.fft.rfft(_tapers(length) * piece) for piece in pieces)
+        pairs = (path, answer), (path, path), (answer, answer)
+        yield np.array([np.sum(one * other.conj(), axis=0) for one, other in pairs])
 
 
-def _coherence(path: NDArray[np.complex128], answer: NDArray[np.complex128]) -> Array:
-    """The squared coherence (f,) of spectra (m, f)."""
-    across = np.abs(np.sum(path * answer.conj(), axis=0)) ** 2
+def _coherence(products: NDArray[np.complex128]) -> Array:
+    """The squared coherence (f,)."""
+    across, own, others = products
     with np.errstate(invalid="ignore", divide="ignore"):  # lines without any power
-        found: Array = across / (np.sum(np.abs(path) ** 2, axis=0) * np.sum(np.abs(answer) ** 2, axis=0))
+        found: Array = np.abs(across) ** 2 / (own * others).real
     return found
 
 
