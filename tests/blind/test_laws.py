@@ -126,6 +126,12 @@ def fung(motion: Motion, state: State) -> Array:
     return curve + fftconvolve(np.diff(curve, prepend=curve[0]), kernel)[: curve.size]
 
 
+def rubber(motion: Motion, state: State) -> Array:
+    """An exponential curve, and a loss angle that is the same at every load."""
+    curve, slope = 1200.0 * np.expm1(motion.displacement / 20e-3), 60e3 * np.exp(motion.displacement / 20e-3)
+    return curve + 3e-3 * slope * motion.velocity
+
+
 def lip_seal(motion: Motion, state: State) -> Array:
     """Friction of a lip that grips one way."""
     return np.where(motion.velocity > 0.0, 55.0, 20.0) * np.tanh(motion.velocity / 1e-3)
@@ -250,6 +256,7 @@ CASES = [
     Case("end_stop", limit_strap),
     Case("end_stop", droop_strap),
     Case("relaxation", fung, HEAD + BENT + DAMPER, stiffness=0.0),
+    Case("preload_dependent_damping", rubber, HEAD + BENT + DAMPER, stiffness=0.0, damping=0.0),
     Case("friction", lip_seal),
     Case("friction", rod_wiper),
     Case("velocity_dependent_friction", rod_seal),
