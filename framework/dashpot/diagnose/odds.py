@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from math import isfinite
 
@@ -48,13 +49,16 @@ def agreed_by_chance(groups: int) -> float:
     return 0.5**groups
 
 
-def against_unknown(cause: type[Cause]) -> float:
-    """The prior odds of a cause against a law of the specimen that nobody has named.
+def against_unknown(cause: type[Cause], numbers: Mapping[str, float]) -> float:
+    """The prior odds of a cause, with the numbers that were found, against an unknown law of the specimen.
 
     That the phase and the inertia are the same in every run tells a fault of the measurement from the laws that are
-    known, but not from every law: a damping in proportion to the stiffness shifts the phase as an early channel does.
+    known. A delay or a mass below zero may be an unknown law, and a passive one: damping in proportion to the stiffness
+    shifts the phase as an early channel does, and relaxation stiffens with the frequency. Above zero they would have
+    to give energy or be inertia.
     """
-    return RIG_ODDS if cause.kind == "measurement" and cause.evidence_of == "phase" else 1.0
+    passive = any(number < 0.0 for number in numbers.values())
+    return RIG_ODDS if passive and cause.kind == "measurement" and cause.evidence_of == "phase" else 1.0
 
 
 def share_of_both(explained: float, unexplained: float, odds: float = 1.0) -> float:

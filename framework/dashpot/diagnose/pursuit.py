@@ -166,7 +166,9 @@ class Pursuit:
         if less is None or unexplained == 0.0:
             return float(alone > 0.0 or less is None)
         by_chance = agreed_by_chance(self.look.folds.groups)
-        odds = next(against_unknown(term.cause) for term in self.best.model.causes if term.name == name)
+        model = self.best.model
+        mine = [term for term in model.causes if term.name == name]
+        odds = min(against_unknown(term.cause, model.numbers_of(model.terms.index(term))) for term in mine)
         rivals = [self._ahead_of(other, unexplained) for other in self._without_name(name)]
         return min([share_of_both(alone, unexplained, odds), 1.0 - by_chance, *rivals])
 

@@ -23,12 +23,14 @@ def squares_of(nats):
     return np.exp(2.0 * np.broadcast_to(np.asarray(nats, dtype=float), FOLDS) / SAMPLES)
 
 
-def scored(nats, *names, price=0.0, cause=SPECIMEN):
-    """A structure with so many nats in each fold."""
+def scored(nats, *names, price=0.0, cause=SPECIMEN, size=1.0):
+    """A structure with so many nats in each fold; its terms have a number of a ``size`` each."""
     each = squares_of(nats)
     terms = tuple(SimpleNamespace(name=(name, ""), cause=cause) for name in names)
     names = tuple(term.name for term in terms)
-    model = SimpleNamespace(names=names, terms=terms, causes=terms, count=lambda number: 1)
+    numbers = {"delay": size}
+    counted = {"count": lambda number: 1, "numbers_of": lambda number: numbers}
+    model = SimpleNamespace(names=names, terms=terms, causes=terms, **counted)
     return Scored(model, each, 0.0, each, np.full(FOLDS, SAMPLES), price)
 
 
@@ -97,11 +99,14 @@ def test_a_cause_has_its_share_of_what_it_and_an_unknown_law_explain(unexplained
     assert of_groups(groups, 10.0, unexplained) == pytest.approx(expected)
 
 
-@pytest.mark.parametrize(("evidence_of", "odds"), [("phase", RIG_ODDS), ("range", 1.0), ("order", 1.0)])
-def test_an_unknown_law_may_have_the_phase_of_a_fault_and_is_likelier(evidence_of, odds):
+@pytest.mark.parametrize(
+    ("evidence_of", "size", "odds"),
+    [("phase", -1e-3, RIG_ODDS), ("phase", 1e-3, 1.0), ("range", -1.0, 1.0), ("order", -1.0, 1.0)],
+)
+def test_an_unknown_passive_law_may_have_the_phase_of_an_early_channel_and_is_likelier(evidence_of, size, odds):
     """Bayes' rule: what both explain, weighted by what is known of them beforehand; without an unknown law, nothing."""
     rig = SimpleNamespace(kind="measurement", evidence_of=evidence_of)
-    found = pursuit(scored(0.0, "a", cause=rig), [scored(10.0)])
+    found = pursuit(scored(0.0, "a", cause=rig, size=size), [scored(10.0)])
     assert found.probability(("a", ""), 0.2) == pytest.approx(its_share(odds * np.expm1(20.0 / SAMPLES), 0.2))
     assert found.probability(("a", ""), 0.0) == 1.0
 
