@@ -302,13 +302,13 @@ class Pursuer:
         others = tuple(one for one in look.candidates if one.name not in model.names)
         scores = Scores(replace(look, candidates=others))
         waiting: dict[tuple[Term, str], list[Structure]] = {}
-        among = _not_provable(scores)
+        unproven = _not_provable(scores)
         for term in {term.name: term for term in reversed(model.causes)}.values():
             ranked = _in_place_of(scores, term)
             waiting[term, "as simple"] = [one for one in ranked if scores.price(one) <= 0.0][:TRIED]
             waiting[term, "richer"] = [one for one in ranked if scores.price(one) > 0.0][:TRIED]
             if term.kind == "measurement":
-                waiting[term, "not provable"], among = among, []
+                waiting[term, "not provable"], unproven = unproven, []
         found: dict[tuple[Term, str], Scored] = {}
         while few := [(key, left.pop(0)) for key, left in waiting.items() if left and key not in found]:
             trials = self.trials.refitted(scores, [one for _, one in few])
