@@ -9,6 +9,7 @@ from seeds import seed_of
 
 from dashpot.data.coherence import highest_coherent
 from dashpot.data.drive import drive_from_samples
+from dashpot.data.smoothing import best_rates, sensor_noise, smooth_path
 
 RATE, COUNT = 300.0, 6000
 TIME = np.arange(COUNT) / RATE
@@ -98,6 +99,68 @@ def test_a_sweep_keeps_its_fast_end(count, gap):
     fast = slice(-count // 4, -100)
     assert highest_coherent(shown, force) * rate == pytest.approx(last, rel=0.15)
     assert np.sqrt(np.mean((found - v)[fast] ** 2) / np.mean(v[fast] ** 2)) < 0.01
+
+
+@pytest.mark.parametrize("last", [20.0, 50.0])
+def test_the_fast_end_of_a_long_sweep_has_shorter_windows(last):
+    """Half a minute in which all but a tenth is slow: one window for all loses several per cent of the fast end."""
+    rate, count, first = 1000.0, 30_000, 0.5
+    rng = np.random.default_rng(seed_of(f"long sweep {last}"))
+    octaves = np.log(last / first) * rate / count
+    hertz = first * np.exp(octaves * np.arange(count) / rate)
+    angle = 2.0 * np.pi * (hertz - first) / octaves
+    x, v = 1e-3 * np.sin(angle), 1e-3 * 2.0 * np.pi * hertz * np.cos(angle)
+    shown = x + 1e-6 * rng.standard_normal(count)
+    force = 150e3 * x + 300.0 * v + rng.standard_normal(count)
+    found = drive_from_samples(1.0 / rate, shown, force=force)
+    best = best_rates(shown, sensor_noise(shown), highest_coherent(shown, force))
+    alike = smooth_path(1.0 / rate, shown, best.half)[1]
+    fast, slow = slice(-count // 20, -100), slice(100, count // 2)
+    assert np.std((found.velocity - v)[fast]) < 0.01 * np.std(v[fast])
+    assert np.std((found.velocity - v)[fast]) < 0.5 * np.std((alike - v)[fast])
+    assert np.array_equal(found.velocity[slow], alike[slow])
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_noise_that_goes_with_the_speed_is_no_motion(seed):
+    """Under the jitter of a clock windows of other widths differ by more at times, and no motion is lost.
+
+    How much noise there is, is known as a mean over a window only: the error may grow by half, and not 1.8 to 9 times.
+    """
+    rng = np.random.default_rng(seed_of(f"with the speed {seed}"))
+    x, v = sine(0.5)
+    shown = jitter(x, v, rng)
+    alike = smooth_path(1.0 / RATE, shown, best_rates(shown, sensor_noise(shown)).half)[1]
+    found = drive_from_samples(1.0 / RATE, shown).velocity
+    assert relative_error(found, v) < 1.6 * relative_error(alike, v)
+
+
+@pytest.mark.parametrize("speed", [2e-3, 10e-3])
+def test_the_corners_of_a_triangle_have_shorter_windows(speed):
+    """Of the error a fifth goes and more; what happens between two samples no window tells."""
+    rate, travel = 1000.0, 8e-3
+    count = int(6.0 * travel / speed * rate)
+    rng = np.random.default_rng(seed_of(f"triangle {speed}"))
+    way = (speed * (np.arange(count) + 0.5) / rate) % (2.0 * travel)
+    x, v = travel - np.abs(way - travel), speed * np.where(way < travel, 1.0, -1.0)
+    shown = x + 1e-6 * rng.standard_normal(count)
+    found = drive_from_samples(1.0 / rate, shown)
+    alike = smooth_path(1.0 / rate, shown, best_rates(shown, sensor_noise(shown)).half)[1]
+    assert np.std(found.velocity - v) < 0.8 * np.std(alike - v)
+
+
+@pytest.mark.parametrize("seed", range(5))
+def test_noise_shortens_next_to_no_window(seed):
+    """A steady random motion: the narrower windows differ from the others by chance alone."""
+    rng = np.random.default_rng(seed_of(f"steady {seed}"))
+    angles, hertz = rng.uniform(0.0, 2.0 * np.pi, (40, 1)), rng.uniform(0.5, 10.0, (40, 1))
+    angle = 2.0 * np.pi * hertz * TIME + angles
+    x, v = (1e-3 * np.sin(angle)).mean(axis=0), (2e-3 * np.pi * hertz * np.cos(angle)).mean(axis=0)
+    shown = x + 1e-6 * rng.standard_normal(COUNT)
+    best = best_rates(shown, sensor_noise(shown))
+    alike, found = smooth_path(1.0 / RATE, shown, best.half)[1], drive_from_samples(1.0 / RATE, shown).velocity
+    assert best.smooth and best.narrower
+    assert np.std(found - v) < 1.01 * np.std(alike - v)
 
 
 def test_signals_that_have_nothing_in_common_are_coherent_by_chance_in_one_of_a_hundred_records():

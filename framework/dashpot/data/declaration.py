@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from dashpot.data.channel import Channel, read_channels, unit_of_channel
 from dashpot.data.inherit import inherit
-from dashpot.data.run import KINDS
+from dashpot.data.run import KINDS, OTHER_WORDS
 from dashpot.text.form import Form, read_integer, read_items, read_text
 from dashpot.text.name import RULE, is_name, shown
 from dashpot.text.node import Mapping as MappingNode
@@ -110,7 +110,7 @@ def _read(form: Form, file: str | None, order: int) -> RunDeclaration:
     return RunDeclaration(
         name=read_name(form, path),
         file=path,
-        kind=form.choice("kind", KINDS),
+        kind=form.choice("kind", KINDS, meant=OTHER_WORDS),
         time=time,
         sampling=sampling,
         channels=channels,

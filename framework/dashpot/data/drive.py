@@ -97,7 +97,7 @@ def drive_from_samples(dt: float, displacement: Array, smooth: bool | None = Non
         best = best_rates(x, sensor_noise(x), None if force is None else highest_coherent(x, force))
         degree = best.degree
         if smooth or (smooth is None and best.smooth):
-            return drive_from_path(dt, *smooth_path(dt, x, best.half))
+            return drive_from_path(dt, *smooth_path(dt, x, best.half, best.narrower))
     return drive_from_path(dt, x, *interpolated_rates(dt, x, degree))
 
 

@@ -8,6 +8,14 @@ from dataclasses import dataclass, field
 import numpy as np
 
 KINDS = ("quasi_static", "sweep", "harmonic", "random", "hold", "transient")
+OTHER_WORDS = {
+    **dict.fromkeys(("static", "slow", "ramp", "triangle", "triangular", "quasistatic"), "quasi_static"),
+    **dict.fromkeys(("chirp", "swept_sine", "sine_sweep"), "sweep"),
+    **dict.fromkeys(("sine", "sinus", "sinusoidal", "dynamic", "steady", "stepped_sine", "cyclic"), "harmonic"),
+    **dict.fromkeys(("noise", "white_noise", "road", "stochastic"), "random"),
+    **dict.fromkeys(("creep", "relaxation", "step_and_hold"), "hold"),
+    **dict.fromkeys(("step", "impact", "drop", "pulse", "free_decay"), "transient"),
+}  # of users for kinds
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,13 +1,15 @@
 """How a measured path gets its rates: the interpolating spline or the local polynomials with the best velocity.
 
 Longer polynomials take more of the noise and lose more of the motion. Where even the shortest ones would lose more than
-they take, the path is left as it is.
+they take, the path is left as it is. At a corner, or at the fast end of a sweep, they are shorter than elsewhere.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
+from typing import Any
 
 import numpy as np
 from numpy.polynomial import legendre
@@ -29,6 +31,8 @@ PIECES, OVERLAP = 4, 0.7  # of a record whose spectra are averaged
 LINES = 9  # of a spectrum that are averaged
 WIDENED = 7  # lines by which a line is widened, by the window of a piece and by the average
 NEGLIGIBLE = 1e-6  # of the mean square of the velocity
+QUIET = 0.25  # of a record: how far the shortest polynomials are off there is its noise
+BY_CHANCE = 0.01  # of records with a place where noise alone makes the windows narrower
 DARK = ("chebwin", 160.0)  # dB: what this window spreads is no noise
 NOISE_ALONE = 0.2  # periods a sample: beyond half of all lines are taken for noise
 NEAR_NYQUIST = 0.45  # periods a sample: the power from here on tells how much there is beyond the Nyquist frequency
@@ -36,22 +40,66 @@ NEAR_NYQUIST = 0.45  # periods a sample: the power from here on tells how much t
 
 @dataclass(frozen=True)
 class Choice:
-    """How a path gets its rates: polynomials of 2 ``half`` + 1 samples if ``smooth``, else a spline of ``degree``."""
+    """How a path gets its rates: polynomials of 2 ``half`` + 1 samples if ``smooth``, else a spline of ``degree``.
+
+    ``narrower`` are half widths for where the motion is faster, each with the standard deviation in m a sample by which
+    the noise makes its velocity another one than that of the width before.
+    """
 
     half: int
     smooth: bool
     degree: int
+    narrower: tuple[tuple[int, float], ...] = ()
 
 
-def smooth_path(dt: float, x: Array, half: int) -> tuple[Array, Array, Array]:
+def smooth_path(
+    dt: float, x: Array, half: int, narrower: Sequence[tuple[int, float]] = ()
+) -> tuple[Array, Array, Array]:
     """Displacement, velocity and acceleration (n,) of a path sampled every ``dt``; windows have 2 ``half`` + 1 samples.
 
-    Least squares by polynomials around every sample. Source: Savitzky and Golay, Anal. Chem. 36 (1964) 1627.
+    Least squares by polynomials around every sample. Where one of the ``narrower`` windows, as in ``Choice``, gives
+    another velocity than the one before by more than noise does anywhere in 99 of 100 records, that one has lost
+    motion, and so has every window of its width that holds the place: there the narrower one counts. Where the shortest
+    polynomials leave more than elsewhere, there is as much more noise: that of a jitter goes with the speed.
+    Sources: Savitzky and Golay, Anal. Chem. 36 (1964) 1627; Lepski, Theory of Probability and its Applications 35
+    (1991) 454, for the choice of a width by place.
     """
+    from scipy.special import ndtri
+
     half = min(half, (x.size - 1) // 2)
-    at, fit = _window(half)
-    place, speed, bend = (_moved_along(x, _rate(at, fit, order) / (dt * half) ** order) for order in range(3))
+    found = last = _smoothed(dt, x, half)
+    most = -ndtri(0.5 * BY_CHANCE / x.size) / dt * _noise_around(x, half) if narrower else 0.0
+    lost = np.ones(x.size, dtype=bool)
+    for narrow, noise in narrower:
+        shorter = _smoothed(dt, x, narrow)
+        apart = np.abs(shorter[1] - last[1]) > most * noise
+        apart[:half] = apart[-half:] = False  # where polynomials end noise has more of a hold on them
+        lost &= _mean_around(apart, half) > 0.0
+        if not lost.any():
+            break
+        found += _mean_around(lost, narrow) * (shorter - found)
+        half, last = narrow, shorter
+    place, speed, bend = found
     return place, speed, bend
+
+
+def _smoothed(dt: float, x: Array, half: int) -> Array:
+    """Displacement, velocity and acceleration (3, n) by windows of one width."""
+    at, fit = _window(half)
+    return np.array([_moved_along(x, _rate(at, fit, order) / (dt * half) ** order) for order in range(3)])
+
+
+def _noise_around(x: Array, half: int) -> Array:
+    """How many times the noise around each sample (n,) is that of the quiet parts of the record, one at least."""
+    rest = x - _moved_along(x, _rate(*_window(HALF_WIDTHS[0]), 0))
+    square = _mean_around(rest**2, half)
+    return np.sqrt(np.maximum(square / max(float(np.quantile(square, QUIET)), 1e-300), 1.0))
+
+
+def _mean_around(values: NDArray[Any], half: int) -> Array:
+    """The mean (n,) of the 2 ``half`` + 1 values around each one; at the ends of a record the last one goes on."""
+    total = np.cumsum(np.concatenate([[0.0], np.pad(values, half, mode="edge")]))
+    return np.asarray((total[2 * half + 1 :] - total[: -2 * half - 1]) / (2.0 * half + 1.0))
 
 
 def best_rates(x: Array, noise: float, shown: float | None = None) -> Choice:
@@ -88,7 +136,18 @@ def best_rates(x: Array, noise: float, shown: float | None = None) -> Choice:
     degree = HIGH if expected(high) + mistaken(high) < expected(quintic) + mistaken(quintic) else QUINTIC
     error, half = min((expected(_response(half)), half) for half in HALF_WIDTHS if 2 * half < x.size)
     noisy = noise > NOISE_OF_SPAN * np.ptp(x)
-    return Choice(half, bool(noisy) and error < expected(response_of_spline(degree)), degree)
+    smooth = bool(noisy) and error < expected(response_of_spline(degree))
+    return Choice(half, smooth, degree, _narrower(half, frequency, passing))
+
+
+def _narrower(half: int, frequency: Array, passing: Array) -> tuple[tuple[int, float], ...]:
+    """Half widths below one, each half of the one before, and the noise of their differences; see ``Choice``."""
+    found, wide = [], np.interp(frequency, FREQUENCIES, _response(half))
+    while (half := half // 2) >= HALF_WIDTHS[0]:
+        narrow = np.interp(frequency, FREQUENCIES, _response(half))
+        found.append((half, float(np.sqrt(np.trapezoid(passing * (narrow - wide) ** 2, frequency)))))
+        wide = narrow
+    return tuple(found)
 
 
 def _noise_of(frequency: Array, power: Array, noise: float, shown: float | None) -> Array:

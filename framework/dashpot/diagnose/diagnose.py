@@ -220,7 +220,7 @@ def searched_without_apart(
     look, pairs = replace(pursuit.look, model=pursuit.best.model), repeats_of(refitter, groups)
     left = look_for_leftover(refitter, look, pairs)
     apart, rest = runs_apart(refitter, look, left, pairs, groups)
-    whole, known = Searched(pursuit, accused, left, ()), set(pursuit.best.model.names)
+    whole, known = Searched(pursuit, accused, left if apart else rest, ()), set(pursuit.best.model.names)
     if not apart or (known and rest.notable()):
         return whole
     others = without_runs(refitter, apart)

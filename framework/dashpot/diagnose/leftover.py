@@ -17,9 +17,11 @@ from dashpot.diagnose.bends import bends_of_tables
 from dashpot.diagnose.lines import strongest_line
 from dashpot.diagnose.look import Look
 from dashpot.diagnose.refit import Refitter
+from dashpot.diagnose.rounding import Rounding, rounding_of
 from dashpot.diagnose.table_rows import records
 from dashpot.diagnose.view import ModelView
 from dashpot.diagnose.whitening import Noise
+from dashpot.fit.scored import ScoredRun
 
 Array = NDArray[np.float64]
 
@@ -36,9 +38,10 @@ class Leftover:
     """``score`` is in standard deviations of pure noise, ``size`` the structured part in units of the noise (RMS).
 
     ``what`` says how it shows, ``share`` how much of the square of the residual it is; of the residual in newtons where
-    it comes again in repeated runs or is a line, else of the whitened one. ``run`` is the single run that it follows,
-    if it does. ``line`` says whether there is a notable line in the spectrum. Repeated runs differ by both, so that a
-    noise floor that comes from them holds these, but they are no noise.
+    it comes again in repeated runs or is a line, else of the whitened one. ``run`` is the single run in which it is,
+    and ``follows`` the function that it follows there, if it does. ``line`` says whether there is a notable line in the
+    spectrum. Repeated runs differ by both, so that a noise floor that comes from them holds these, but they are no
+    noise.
     """
 
     score: float
@@ -47,6 +50,12 @@ class Leftover:
     share: float = 0.0
     line: bool = False
     run: str = ""
+    follows: str = ""
+
+    @property
+    def of_most_runs(self) -> Leftover:
+        """The same, found to be in one run after another."""
+        return replace(self, what=f"follows {self.follows} of its own in most runs", run="", follows="")
 
     def notable(self) -> bool:
         """Whether something is left that is both certain and not negligible beside the noise."""
@@ -82,14 +91,21 @@ def look_for_leftover(refitter: Refitter, look: Look, pairs: Sequence[tuple[str,
 def _free(refitter: Refitter, look: Look, noise: Noise) -> tuple[dict[str, Array], dict[str, Array]]:
     """By run what the residual (kept,) is beside all that a search leaves free, and this (p, kept), whitened.
 
-    Free are the numbers of the model and the bends of its fitted tables between two knots.
+    Free are the numbers of the model, the bends of its fitted tables between two knots, and what a force that was
+    recorded in coarse steps was rounded by.
     """
     residual, tangents = refitter.linearise(look.model, noise)
     bends = bends_of_tables(refitter.runs, look.view, look.model.fitted)
-    free = {run: np.concatenate([rows, noise.whiten(run, bends[run])]) for run, rows in tangents.items()}
+    rounded = {run.name: _rounding(run, look).means for run in records(refitter.runs)}
+    beside = {run: np.concatenate([bend, rounded.get(run, bend[:0])]) for run, bend in bends.items()}
+    free = {run: np.concatenate([rows, noise.whiten(run, beside[run])]) for run, rows in tangents.items()}
     gram = sum(rows @ rows.T for rows in free.values())
     strengths = _inverse(gram) @ sum(rows @ residual[run] for run, rows in free.items())
     return {run: residual[run] - strengths @ rows for run, rows in free.items()}, free
+
+
+def _rounding(run: ScoredRun, look: Look) -> Rounding:
+    return rounding_of(run.force[run.first :], look.view.force(run.name)[run.first :])
 
 
 def _correlation(refitter: Refitter, look: Look, residual: Mapping[str, Array], free: Mapping[str, Array]) -> Leftover:
@@ -137,35 +153,43 @@ def _single_runs(refitter: Refitter, look: Look, residual: Mapping[str, Array]) 
         return Leftover(0.0, 0.0, "is of no single run")
     excess, (name, at) = whole - count, max(alone, key=lambda key: alone[key])
     score, size = excess / float(np.sqrt(2.0 * count)), float(np.sqrt(max(excess, 0.0) / samples))
-    return Leftover(score, size, f"follows {name}", run=at)
+    return Leftover(score, size, f"follows {name} in run '{at}' alone", run=at, follows=name)
 
 
 def _uneven(refitter: Refitter, look: Look, residual: Mapping[str, Array]) -> Leftover:
     """Whether the size of the residual follows the motion, as that of a law does and that of noise does not.
 
     The score test of Breusch and Pagan, studentised (Koenker, Journal of Econometrics 17 (1981) 107): squares of the
-    residual over the ranks of deflection, velocity and acceleration. By their size a few samples, such as the corners
-    of a triangle, would have all the leverage, and their noise would decide.
+    residual over the ranks of deflection, velocity and acceleration, beside what coarse steps of the force do to them.
+    By their size a few samples, such as the corners of a triangle, would have all the leverage, and their noise would
+    decide.
     """
     found, names = [], list[str]()
     for run in records(refitter.runs):
         functions = _ranks(look.view, run.name)
         names = list(functions)
         rows = np.array([*functions.values(), np.ones(run.force.size)])[:, run.first :]
-        sums = look.measured_noise.reduce(run.name, rows)
-        found.append(np.concatenate([sums / sums[-1], residual[run.name][None] ** 2]))
+        sums = look.measured_noise.reduce(run.name, np.concatenate([rows, _rounding(run, look).variances]))
+        found.append(np.concatenate([residual[run.name][None] ** 2, sums / sums[len(names)]]))
     if not found:
         return Leftover(0.0, 0.0, "has no size that could follow the motion")
-    whole = np.concatenate(found, axis=1)
-    rows, squares, samples = whole[:-1], whole[-1], whole.shape[1]
-    away = squares - squares.mean()
-    fitted = np.linalg.lstsq(rows.T, away, rcond=1e-9)[0] @ rows
-    variance = max(float(np.var(squares)), 1e-300)
+    width = max(map(len, found))
+    whole = np.concatenate([np.pad(rows, ((0, width - len(rows)), (0, 0))) for rows in found], axis=1)
+    squares, rows, beside, samples = whole[0], whole[1 : len(names) + 1], whole[len(names) + 1 :], whole.shape[1]
+    away = squares - _projected(squares, beside)
+    rows = rows - _projected(rows, beside)
+    fitted = _projected(away, rows)
+    variance = max(float(np.var(away)), 1e-300)
     excess = float(fitted @ fitted) / variance - len(names)
-    alone = [abs(np.corrcoef(row, away)[0, 1]) for row in rows[:-1]]
+    alone = [abs(np.corrcoef(row, away)[0, 1]) for row in rows]
     follows = np.sqrt(max(excess, 0.0) * variance / samples)  # the deviation of what follows the motion
     size = float(np.sqrt(follows / max(float(squares.mean()), 1e-300)))
     return Leftover(excess / float(np.sqrt(2.0 * len(names))), size, f"grows with {names[int(np.argmax(alone))]}")
+
+
+def _projected(signals: Array, rows: Array) -> Array:
+    """Signals (..., n) on the space of rows (k, n)."""
+    return np.asarray((np.linalg.lstsq(rows.T, signals.T, rcond=1e-9)[0].T) @ rows)
 
 
 def _ranks(view: ModelView, run: str) -> dict[str, Array]:
@@ -268,9 +292,9 @@ def single_functions(view: ModelView, run: str) -> dict[str, Array]:
     """What a run may have by itself, its force, a constant and the time: (n,) by name."""
     force = view.force(run)
     return {
-        f"the force of run '{run}' alone": force,
-        f"a constant in run '{run}'": np.ones_like(force),
-        f"the time in run '{run}'": np.linspace(0.0, 1.0, force.size),
+        "the force": force,
+        "a constant": np.ones_like(force),
+        "the time": np.linspace(0.0, 1.0, force.size),
     }
 
 

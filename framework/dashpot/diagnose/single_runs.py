@@ -53,13 +53,14 @@ def runs_apart(
 ) -> tuple[tuple[str, ...], Leftover]:
     """The runs that have what is ``left`` beside the model of a look, each by itself, and what is left in the others.
 
-    All numbers are fitted to the others. None where most of the ``groups`` of runs would be among them.
+    All numbers are fitted to the others. None where most of the ``groups`` of runs would be among them: then it is
+    told of most runs.
     """
     found, most, rest = list[str](), 0.5 * len({groups[run.name] for run in refitter.runs}), left
     while rest.notable() and rest.run:
         refitter, pairs = without_runs(refitter, {rest.run}), [pair for pair in pairs if rest.run not in pair]
         if len({groups[run.name] for run in refitter.runs}) <= most:
-            return (), left
+            return (), left.of_most_runs
         found.append(rest.run)
         rest = look_for_leftover(refitter, replace(look, model=refitter.fit(look.model, look.noise)), pairs)
     return tuple(found), rest

@@ -122,9 +122,11 @@ class Form:
         """A list of quantities, in SI."""
         return self.take(key, lambda node: [read_quantity(item, unit) for item in read_items(node)], default)
 
-    def choice(self, key: str, known: Collection[str], default: Any = REQUIRED) -> str | Any:
-        """One of the known words."""
-        return self.take(key, lambda node: read_choice(node, known), default)
+    def choice(
+        self, key: str, known: Collection[str], default: Any = REQUIRED, meant: dict[str, str] | None = None
+    ) -> str | Any:
+        """One of the known words; for others the message tells what may be ``meant`` by them."""
+        return self.take(key, lambda node: read_choice(node, known, meant), default)
 
     def form(self, key: str, what: str = "", default: Any = REQUIRED) -> Form | Any:
         """The mapping below a key, as a form that notes into the same list; closing it is up to the caller."""
@@ -208,13 +210,15 @@ def read_quantity(node: Node, unit: str) -> float:
     return si(node.value, unit)
 
 
-def read_choice(node: Node, known: Collection[str]) -> str:
-    """One of the known words. ValueError with the nearest one for anything else."""
+def read_choice(node: Node, known: Collection[str], meant: dict[str, str] | None = None) -> str:
+    """One of the known words. ValueError with the nearest one, or what may be ``meant``, for anything else."""
     word = read_text(node)
     if word in known:
         return word
     wanted = f"one of {', '.join(known)}" if known else "nothing, as there is nothing to choose from"
-    raise ValueError(f"expected {wanted}, got '{word}'; {nearest(word, known)}".rstrip("; "))
+    also = meant or {}
+    hint = f"did you mean '{also[word.lower()]}'?" if word.lower() in also else nearest(word, known)
+    raise ValueError(f"expected {wanted}, got '{word}'; {hint}".rstrip("; "))
 
 
 def read_items(node: Node) -> tuple[Node, ...]:

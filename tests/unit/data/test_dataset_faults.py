@@ -72,6 +72,7 @@ def told(folder: Path, run: str) -> str:
         ("name: b, file: good.npz, repeats: ^gooood", "repeats 'gooood', which is no run here. did you mean 'good'?"),
         ("name: b, file: good.npz, repeats: ^b", "it repeats 'b', which repeats it again. name the first"),
         ("name: b, file: good.npz, kind: ^swep", "'kind': expected one of quasi_static, sweep, harmonic"),
+        ("name: b, file: good.npz, kind: ^Sine", "got 'Sine'; did you mean 'harmonic'?"),
         ("name: b, file: good.npz, ^setings: {}", "the run 'b' has no key 'setings'. did you mean 'settings'?"),
         ("name: b, file: good.npz, settings: {amplitude: ^3 N}", "'amplitude': expected a quantity in m, got 'N'"),
         ("name: b, file: good.npz, settings: ^[1]", "expected the run 'b', 'settings' as 'key: value' lines"),

@@ -73,3 +73,17 @@ def test_a_cause_that_one_run_alone_shows_is_not_lost():
     found = diagnose(bench(data).model.declared, data, registry=load_registry())
     assert found.leftover.run == "deepest" and found.leftover.notable()
     assert not found.apart and "end_stop" in [term.cause.word for term in found.terms]
+
+
+def test_a_zero_of_its_own_in_every_run_is_told_of_most_runs():
+    """No cause fits it; where the data sheet states how much zeros scatter, nothing is missing."""
+    zeros = dict(zip([*MOTIONS, "again"], 25.0 * np.random.default_rng(5).standard_normal(7), strict=True))
+    fault = {run: lambda force, zero=zero: force + zero for run, zero in zeros.items()}
+    data = dataset(repeats=AGAIN, fault=fault)
+    registry, network = load_registry(), bench(data).model.declared
+    found = diagnose(network, data, registry=registry)
+    assert found.verdict == "unexplained" and not found.named and not found.apart and not found.accused
+    assert found.leftover.what == "follows a constant of its own in most runs" and not found.leftover.run
+    stated = [replace(run, sensors={"force": {"zero": 25.0}}) for run in data.runs]
+    found = diagnose(network, replace(data, runs=tuple(stated)), registry=registry)
+    assert found.verdict == "nothing_missing"
