@@ -11,7 +11,8 @@ from dashpot.model.picture import Series, Symbol
 
 
 class Clearance(Element):
-    """A spring whose joint has play: no force while |x| < gap, beyond that F = stiffness (|x| - gap) sgn(x).
+    """A spring whose joint has play: no force while |s| < gap, beyond that F = stiffness (|s| - gap) sgn(s),
+    s = x - place.
 
     The spring brings itself back to the middle of its play, so there is no memory. For a part that stays where it was
     pushed see ``backlash``.
@@ -21,7 +22,9 @@ class Clearance(Element):
 
     stiffness = Parameter("N/m", "stiffness where the play is used up", bounds=(1.0, 1e12), symbol="k")
     gap = Parameter("m", "play to either side", bounds=(1e-7, 1.0), symbol="g")
+    place = Parameter("m", "middle of the play", bounds=(-1.0, 1.0), scale="linear", symbol="x_0", default=0.0)
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
         """The law at the end of the step."""
-        return Response(p.stiffness * (np.maximum(x.new - p.gap, 0.0) + np.minimum(x.new + p.gap, 0.0)))
+        away = x.new - p.place
+        return Response(p.stiffness * (np.maximum(away - p.gap, 0.0) + np.minimum(away + p.gap, 0.0)))

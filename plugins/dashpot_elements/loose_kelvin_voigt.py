@@ -11,7 +11,8 @@ from dashpot.model.picture import Series, Symbol
 
 
 class LooseKelvinVoigt(Element):
-    """A spring and a dashpot side by side behind play: F = stiffness s + damping s' where they touch, s = |x| - gap.
+    """A spring and a dashpot side by side behind play: F = stiffness s + damping s' where they touch,
+    s = |x - place| - gap.
 
     Where the drive goes back faster than the part follows, they part without force, and s fades by the time
     damping/stiffness until they touch again. Exact but for a step within which they part.
@@ -23,12 +24,14 @@ class LooseKelvinVoigt(Element):
     stiffness = Parameter("N/m", "stiffness behind the play", bounds=(1.0, 1e10), symbol="k")
     damping = Parameter("N*s/m", "damping beside it", bounds=(1e-3, 1e8), symbol="d")
     gap = Parameter("m", "play to either side", bounds=(1e-8, 1.0), symbol="g")
+    place = Parameter("m", "middle of the play", bounds=(-1.0, 1.0), scale="linear", symbol="x_0", default=0.0)
     stretch = State("m", "deflection behind the play")
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
         """The part fades, and the drive takes it along where it touches."""
         faded = z.stretch * np.exp(-dt * p.stiffness / p.damping)
-        stretch = np.minimum(np.maximum(faded, x.new - p.gap), x.new + p.gap)
+        away = x.new - p.place
+        stretch = np.minimum(np.maximum(faded, away - p.gap), away + p.gap)
         force = p.stiffness * stretch + p.damping * x.velocity_new
         pressed = np.where(stretch > faded, np.maximum(force, 0.0), np.minimum(force, 0.0))
         held = np.where(stretch == faded, 0.0, pressed)

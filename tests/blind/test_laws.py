@@ -148,6 +148,19 @@ def rod_wiper(motion: Motion, state: State) -> Array:
     return np.where(motion.velocity > 0.0, 18.0, 45.0) * motion.velocity / np.hypot(motion.velocity, 2e-3)
 
 
+def loose_bush(motion: Motion, state: State) -> Array:
+    """Rubber of 250 N/mm and 500 N s/m with 0.4 mm of play to either side of 10 mm: it touches, or creeps back."""
+    squeezed, found, part = 0.0, [], STEP / 8.0
+    for now, speed in zip(motion.displacement - 10e-3, motion.velocity, strict=True):
+        for left in range(7, -1, -1):
+            before, at = squeezed, now - left * part * speed
+            alone = before / (1.0 + part * 250e3 / 500.0)
+            squeezed = min(max(alone, at - 0.4e-3), at + 0.4e-3)
+        touching = squeezed != alone
+        found.append((250e3 * squeezed + 500.0 * (squeezed - before) / part) * touching)
+    return np.array(found)
+
+
 def rod_seal(motion: Motion, state: State) -> Array:
     """Bristles of 250 N/mm and 100 N s/m that bend up to 60 N at rest and 35 N at speed (LuGre)."""
     bent, found, part = 0.0, [], STEP / 8.0
@@ -264,6 +277,7 @@ CASES = [
     Case("relaxation", fung, HEAD + BENT + DAMPER, stiffness=0.0),
     Case("preload_dependent_damping", rubber, HEAD + BENT + DAMPER, stiffness=0.0, damping=0.0),
     Case("preload_dependent_damping", grooved_bore),
+    Case("clearance", loose_bush, stiffness=0.0, damping=0.0),
     Case("friction", lip_seal),
     Case("friction", rod_wiper),
     Case("velocity_dependent_friction", rod_seal),

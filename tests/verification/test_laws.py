@@ -35,6 +35,7 @@ ODD = [
     "inerter",
     "iwan",
     "loose_friction",
+    "loose_kelvin_voigt",
     "maxwell",
     "mullins",
     "power_law_damper",
@@ -124,6 +125,7 @@ def test_the_future_does_not_change_the_past(network, seed, kind, count):
 @few
 @given(seed=SEEDS, kind=KINDS)
 def test_the_mirrored_motion_gives_the_mirrored_force(word, seed, kind):
+    """The place of a play is mirrored with the motion."""
     rng = np.random.default_rng(seed)
     specimen = draw_specimens(load_registry().elements[word], rng, draw_sizes(rng), 4)[0]
     network, drive = compile_network(specimen.spec), motion(seed, kind)
@@ -134,7 +136,20 @@ def test_the_mirrored_motion_gives_the_mirrored_force(word, seed, kind):
         acceleration=-drive.acceleration,
         turn_displacement=-drive.turn_displacement,
     )
-    assert near(simulate(network, mirrored, specimen.values), -simulate(network, drive, specimen.values))
+    side = np.array([-1.0 if path.endswith(".place") else 1.0 for path in network.paths])
+    assert near(simulate(network, mirrored, specimen.values * side), -simulate(network, drive, specimen.values))
+
+
+@pytest.mark.parametrize("word", ["clearance", "loose_kelvin_voigt"])
+@few
+@given(seed=SEEDS, kind=KINDS, place=st.floats(-5e-3, 5e-3))
+def test_play_about_a_place_is_that_of_a_motion_measured_from_there(word, seed, kind, place):
+    further = {"damping": 300.0} if word == "loose_kelvin_voigt" else {}
+    plain = network_of(word, stiffness=6e4, gap=5e-4, **further)
+    placed = network_of(word, stiffness=6e4, gap=5e-4, place=place, **further)
+    drive = motion(seed, kind)
+    away = replace(drive, displacement=drive.displacement - place, turn_displacement=drive.turn_displacement - place)
+    assert near(simulate(placed, drive), simulate(plain, away))
 
 
 @pytest.mark.parametrize("word", ODD)

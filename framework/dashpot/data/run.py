@@ -13,7 +13,7 @@ OTHER_WORDS = {
     **dict.fromkeys(("chirp", "swept_sine", "sine_sweep"), "sweep"),
     **dict.fromkeys(("sine", "sinus", "sinusoidal", "dynamic", "steady", "stepped_sine", "cyclic"), "harmonic"),
     **dict.fromkeys(("noise", "white_noise", "road", "stochastic"), "random"),
-    **dict.fromkeys(("creep", "relaxation", "step_and_hold"), "hold"),
+    **dict.fromkeys(("static_hold", "step_and_hold", "dwell"), "hold"),
     **dict.fromkeys(("step", "impact", "drop", "pulse", "free_decay"), "transient"),
 }  # of users for kinds
 

@@ -22,6 +22,7 @@ VIEW = SimpleNamespace(
     runs=("run",),
     highest_frequency=DRIVEN,
     displacement=lambda run: 0.01 * np.sin(ANGLE),
+    force=lambda run: 1e3 * np.sin(ANGLE),
     step=lambda run: STEP,
     settings=lambda run: {},
     velocity=lambda run: 0.01 * 2.0 * np.pi * DRIVEN * np.cos(ANGLE),
@@ -166,6 +167,21 @@ def test_play_that_a_refit_leaves_at_its_least_is_no_clearance(gaps, admitted, b
     found = {f"gap_{number}" if number > 1 else "gap": gap for number, gap in enumerate(gaps, 1)}
     to_and_fro = SimpleNamespace(**{**vars(VIEW), "reach": (-0.01, 0.03)})
     assert suspect("clearance", behind, to_and_fro).admits(found) is admitted
+
+
+@pytest.mark.parametrize("form", ["clearance", "loose_kelvin_voigt"])
+@pytest.mark.parametrize("zero", [0.0, 4e-3, -2e-3])
+def test_play_is_looked_for_where_the_force_is_zero(form, zero):
+    """And written with that place where it is not the zero of the deflection; where no run passes it, there is none."""
+    motion = {"displacement": lambda run: VIEW.displacement(run) + zero, "reach": (zero - 0.01, zero + 0.01)}
+    moved = SimpleNamespace(**{**vars(VIEW), **motion})
+    found = suspect("clearance", form, moved)
+    written = parse_network(found.extend(PLAIN, [(1e4, found.grid[0])]), ELEMENTS)
+    places = [slot.value.number for slot in written.slots() if slot.path == "clearance.place"]
+    assert places == ([pytest.approx(zero, abs=0.05e-3)] if zero else [])
+    pressed = SimpleNamespace(**{**vars(VIEW), "force": lambda run: VIEW.force(run) + 2e3})
+    with pytest.raises(StopIteration):
+        suspect("clearance", form, pressed)
 
 
 # half over the angular frequency at the end of the band, about 8 Hz, is 10 ms
