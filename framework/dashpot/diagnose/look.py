@@ -34,7 +34,7 @@ from dashpot.kernel.workers import streamed
 Array = NDArray[np.float64]
 
 RESOLUTION = 1e-5  # of the deviation of the force: simulation and record are no finer
-BLOCK = 2048  # samples of a run at which all columns are made orthonormal at a time
+BLOCK = 2048  # samples of a run of which all columns are multiplied or made orthonormal at a time
 LEFT = 0.5  # of the degrees of freedom may be taken; beyond that the residual of the model stands for the noise
 
 
@@ -238,9 +238,8 @@ def _grams(columns: Columns, noise: Noise, folds: Folds) -> tuple[list[Array], A
 
     def seen(run: ScoredRun) -> list[tuple[int, Array, int]]:
         found = noise.beside_admitted(run.name, columns.of(run))
-        parts = folds.of_run(run.name, found.shape[1])
-        doubles = ((fold, found[:, part].astype(float)) for fold, part in parts)
-        return [(fold, rows @ rows.T, rows.shape[1]) for fold, rows in doubles]
+        parts = ((fold, found[:, part]) for fold, part in folds.of_run(run.name, found.shape[1]))
+        return [(fold, _gram_of(part), part.shape[1]) for fold, part in parts]
 
     grams = [np.zeros((size, size)) for _ in folds.names]
     samples, squares = np.zeros(len(folds.names)), np.zeros(size)
@@ -253,6 +252,15 @@ def _grams(columns: Columns, noise: Noise, folds: Folds) -> tuple[list[Array], A
             gram *= share * precision
             grams[fold] += gram
     return grams, samples, squares
+
+
+def _gram_of(rows: NDArray[np.float32]) -> Array:
+    """The Gram matrix (c, c) of rows (c, kept) in double precision, a block of samples at a time."""
+    gram = np.zeros((len(rows), len(rows)))
+    for start in range(0, rows.shape[1], BLOCK):
+        block = rows[:, start : start + BLOCK].astype(float)
+        gram += block @ block.T
+    return gram
 
 
 def _beside_shapes(signal: Array, shapes: Array) -> Array:
@@ -295,9 +303,10 @@ def recorded_noise(columns: Columns, gram: Array, noise: Noise, faults: Mapping[
     gram = gram / np.outer(scale, scale)
     root = cholesky(gram[np.ix_(others, others)] + RIDGE * np.eye(others.size), lower=True)
     aim = solve_triangular(root, gram[others, first], lower=True) * scale[first]
-    filters, squares = {}, []
-    for run in columns.refitter.runs:
-        found, shapes = columns.of(run), faults[run.name]
+
+    def left_of(run: ScoredRun) -> tuple[Array, float]:
+        """The filter of a run and its square in N^2; all of its columns are there for no longer than this takes."""
+        found, own = columns.of(run), orthonormal(faults[run.name])
         residual = found[first].astype(float)
         rest, taken = residual.copy(), np.zeros(min(ORDER + 1, residual.size))
         for start in range(0, residual.size, BLOCK):
@@ -308,10 +317,11 @@ def recorded_noise(columns: Columns, gram: Array, noise: Noise, faults: Mapping[
             taken += noise.weight(run.name) * lagged(basis, known) / residual.size
         if taken[0] > LEFT:
             rest, taken = residual, np.zeros(taken.size)
-        own = orthonormal(shapes)
         if taken[0] + len(own) / rest.size < LEFT:
             rest, taken = rest - own @ rest @ own, taken + lagged(own) / rest.size
         covariance = covariance_of(rest, taken)
-        filters[run.name] = filter_of(covariance, rest.size, _smallest(run))
-        squares.append(covariance[0])
-    return replace(noise, filters=filters, independent={}), float(np.sqrt(np.mean(squares)))
+        return filter_of(covariance, rest.size, _smallest(run)), float(covariance[0])
+
+    left = {run.name: left_of(run) for run in columns.refitter.runs}
+    noise = replace(noise, filters={run: each for run, (each, _) in left.items()}, independent={})
+    return noise, float(np.sqrt(np.mean([square for _, square in left.values()])))

@@ -45,8 +45,9 @@ def _is_far(ratio: float) -> bool:
 
 
 def _amplitude(run: Run) -> float:
-    """Half of the way in m, without the one to where the motion begins."""
-    return 0.5 * float(np.ptp(run.displacement[begin_of_motion(run.displacement) :]))
+    """Half of the way in m, without the one to where the motion begins; of a step it is the motion."""
+    begin = 0 if run.kind in ("hold", "transient") else begin_of_motion(run.displacement)
+    return 0.5 * float(np.ptp(run.displacement[begin:]))
 
 
 def _frequency(run: Run) -> float:

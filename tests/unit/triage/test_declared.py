@@ -23,6 +23,14 @@ def test_runs_as_they_were_set_are_not_remarked_on(preload):
     assert moved_otherwise([replace(run, settings={"amplitude": 2e-3, "frequency": 5.0, "stop": 20.0})]) == []
 
 
+@pytest.mark.parametrize("kind", ["hold", "transient"])
+def test_of_a_step_the_way_is_the_motion(kind):
+    """It ends at its median, behind which nothing moves."""
+    x = 6e-3 * np.clip((TIME - 0.5) / 0.05, 0.0, 1.0) + 1e-6 * np.random.default_rng(1).standard_normal(TIME.size)
+    step = Run("a", kind, TIME, {"displacement": x, "force": 1e5 * x}, {"amplitude": 6e-3})
+    assert moved_otherwise([step]) == []
+
+
 def test_millimetres_told_as_metres_are_remarked_on_once():
     runs = [replace(sine(amplitude=2.0), name=f"r{k}", settings={"amplitude": 2e-3}) for k in range(5)]
     (said,) = moved_otherwise(runs)
