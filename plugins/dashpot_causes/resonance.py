@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -22,11 +22,12 @@ UNITS = {
     "quadratic_damping": "N*s^2/m^2",
 }
 BROAD, NARROW = (0.25, 9), (0.06, 28)  # damping ratio, and how many frequencies it takes to miss none
-TURBULENT = (0.2, 0.8)  # damping ratios of the turbulence alone, at half of the largest speed
+TURBULENT = (0.2, 0.8, 3.2)  # damping ratios of the turbulence alone, at half of the largest speed
 LOWEST = 0.15  # of the end of the measured band
 BELOW = 3.0  # times lower than where resonances are looked for
 OVERDAMPED = 1.0  # damping ratio from which on it is relaxation
 SMALLEST_MASS = 1.01e-3  # kg
+MIDST = (0.05, 0.95)  # quantiles: the way up to a preload is no stroke
 
 
 class Resonance(Cause):
@@ -47,7 +48,7 @@ class Resonance(Cause):
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
         """A mass behind a spring or hung on one, over resonance frequencies and dampings, linear or of turbulence."""
         end = view.highest_frequency
-        band = Band(LOWEST * end, STIFF * end, 0.15 / view.dt, 0.5 * view.speed)
+        band = Band(LOWEST * end, STIFF * end, 0.15 / view.dt, 0.5 * view.speed, tuple(_tops(view)))
         plain = [Mode(f, ratio) for ratio, count in (BROAD, NARROW) for f in band.frequencies(count)]
         turbulent = [Mode(f, NARROW[0], ratio / band.speed) for ratio in TURBULENT for f in band.frequencies(BROAD[1])]
         for words, element, mass in (
@@ -75,12 +76,16 @@ class Mode:
 
 @dataclass(frozen=True)
 class Band:
-    """Where resonances are looked for, in Hz, up to what is ``sampled`` often enough, and a usual ``speed`` in m/s."""
+    """Where resonances are looked for, in Hz, up to what is ``sampled`` often enough, and a usual ``speed`` in m/s.
+
+    ``tops`` has the highest frequency in Hz and half of the largest speed in m/s of each run.
+    """
 
     low: float
     high: float
     sampled: float
     speed: float
+    tops: Sequence[tuple[float, float]]
 
     def frequencies(self, count: int) -> list[float]:
         """Evenly spread on a logarithmic scale."""
@@ -88,11 +93,21 @@ class Band:
 
     def shows(self, mass: float, stiffness: float, damping: float, quadratic_damping: float = 0.0) -> bool:
         """Whether a mass on a spring swings, and not so far beyond the band that it is a mass, nor so far below it
-        that it stands still: its damping is one to ground, then.
+        that it stands still: its damping is one to ground, then. Turbulence may keep it from that in all but the
+        calmest of the runs that come near its frequency.
         """
         frequency = np.sqrt(stiffness / mass) / (2.0 * np.pi)
-        ratio = (damping + quadratic_damping * self.speed) / (2.0 * np.sqrt(stiffness * mass))
+        speed = min((calm for top, calm in self.tops if STIFF * top > frequency), default=self.speed)
+        ratio = (damping + quadratic_damping * speed) / (2.0 * np.sqrt(stiffness * mass))
         return bool(self.low / BELOW < frequency < self.high and ratio < OVERDAMPED)
+
+
+def _tops(view: View) -> Iterator[tuple[float, float]]:
+    """Of each run the highest frequency in Hz, that of a sine of its stroke and speed, and half of its speed in m/s."""
+    for run in view.runs:
+        low, high = np.quantile(view.displacement(run), MIDST)
+        speed = float(np.max(np.abs(view.velocity(run))))
+        yield speed / max(np.pi * float(high - low), 1e-300), 0.5 * speed
 
 
 def _form(form: str, element: str, mass: str, modes: Sequence[Mode], unknowns: int, band: Band) -> Suspect:

@@ -154,6 +154,22 @@ def test_a_resonance_swings_within_reach_of_what_was_driven(word, form, frequenc
     assert suspect("resonance", f"{form}, in turbulence").admits(found) is admitted
 
 
+@pytest.mark.parametrize(("stroke", "driven", "admitted"), [(0.02, 1.0, True), (0.5, 1.0, False), (0.02, 0.1, False)])
+def test_a_track_of_fluid_swings_if_it_does_in_the_calmest_run_that_drives_it(stroke, driven, admitted):
+    """Turbulence of four times the critical damping in the largest run; a slow run tells nothing of 5 Hz."""
+    shares = {"run": (1.0, 1.0), "calm": (stroke, driven)}
+    motions = {
+        "runs": tuple(shares),
+        "displacement": lambda run: shares[run][0] * 0.01 * np.sin(shares[run][1] * ANGLE),
+        "velocity": lambda run: math.prod(shares[run]) * VIEW.velocity("run"),
+    }
+    turning, mass = 2.0 * math.pi * 5.0, 3.0
+    found = {"fluid_mass": mass, "stiffness": mass * turning**2, "damping": 0.2 * mass * turning}
+    found["quadratic_damping"] = 8.0 * mass * turning / 0.25
+    view = SimpleNamespace(**{**vars(VIEW), **motions})
+    assert suspect("resonance", "a mass behind a spring, in turbulence", view).admits(found) is admitted
+
+
 @pytest.mark.parametrize(("frequency", "admitted"), [(15.0, False), (17.0, True), (300.0, True)])
 def test_a_mass_on_its_mounting_resonates_beyond_that(frequency, admitted):
     found = {"mass": 3.0, "stiffness": 3.0 * (2.0 * math.pi * frequency) ** 2, "damping": 1.0}
