@@ -15,10 +15,12 @@ class Clearance(Element):
     s = x - place.
 
     The spring brings itself back to the middle of its play, so there is no memory. For a part that stays where it was
-    pushed see ``backlash``.
+    pushed see ``backlash``. Not passive where the play does not hold the zero of the deflection, as it is strained from
+    the beginning.
     """
 
     picture = Series(Symbol.PLAY, Symbol.SPRING)
+    passive = False
 
     stiffness = Parameter("N/m", "stiffness where the play is used up", bounds=(1.0, 1e12), symbol="k")
     gap = Parameter("m", "play to either side", bounds=(1e-7, 1.0), symbol="g")

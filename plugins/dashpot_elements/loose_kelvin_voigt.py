@@ -15,10 +15,12 @@ class LooseKelvinVoigt(Element):
     s = |x - place| - gap.
 
     Where the drive goes back faster than the part follows, they part without force, and s fades by the time
-    damping/stiffness until they touch again. Exact but for a step within which they part.
+    damping/stiffness until they touch again. Exact but for a step within which they part. Not passive where the play
+    does not hold the zero of the deflection, as it is strained from the beginning.
     """
 
     picture = Series(Symbol.PLAY, Symbol.SPRING, Symbol.DASHPOT)
+    passive = False
     exact = False
 
     stiffness = Parameter("N/m", "stiffness behind the play", bounds=(1.0, 1e10), symbol="k")

@@ -24,8 +24,8 @@ DT = 1e-3
 STRUCK = {"rattling_mass"}
 # a force that jumps at a touch has a work that is right to a step
 PAIRS = {"loose_kelvin_voigt": 8}
-REMEMBERING = sorted(word for word, law in REGISTRY.elements.items() if law.passive and law.declares.states)
-REMEMBERING = [word for word in REMEMBERING if word not in STRUCK]
+PASSIVE = {word for word, law in REGISTRY.elements.items() if law.passive and law.declares.states}
+REMEMBERING = sorted((PASSIVE | PAIRS.keys()) - STRUCK)
 QUICK = {"kelvin_voigt", "eub", "quarter_car"}
 NETWORKS = [name if name in QUICK else pytest.param(name, marks=pytest.mark.slow) for name in shipped_networks()]
 

@@ -120,15 +120,20 @@ shared: [relaxing.relaxation_time]
 """
 
 
-@pytest.fixture(scope="module")
-def measured():
+def measured_from(first):
+    """Both specimens on the bench, with seeds from the ``first`` on."""
     found = {}
     for seed, (name, stiffness, share) in enumerate(
-        (("soft", "200 N/mm", "60 N/mm"), ("hard", "500 N/mm", "150 N/mm"))
+        (("soft", "200 N/mm", "60 N/mm"), ("hard", "500 N/mm", "150 N/mm")), first
     ):
         model = dp.declare(NETWORK.format(name=name, stiffness=stiffness, share=share, time="20 ms"))
         found[name] = dp.measure(model, "bushing_bench", seed=seed)
     return found
+
+
+@pytest.fixture(scope="module")
+def measured():
+    return measured_from(0)
 
 
 def files(folder, text=FILE):
@@ -138,13 +143,19 @@ def files(folder, text=FILE):
     return folder / "pair.yaml"
 
 
+def width(interval):
+    return interval[1] - interval[0]
+
+
 def test_specimens_that_agree_narrow_the_interval_of_what_they_share(tmp_path, measured):
-    found = fit_joint(read_joint(files(tmp_path), load_registry()), measured)
-    [shared] = found.shared
-    assert shared.interval[0] < 20e-3 < shared.interval[1]
-    assert shared.apart > 1e-4
-    widths = [high - low for _, (low, high) in shared.alone.values()]
-    assert shared.interval[1] - shared.interval[0] < 1.05 * min(widths)
+    """In the mean over three pairs of tests: the width of an interval is itself known to a tenth or so."""
+    joint = read_joint(files(tmp_path), load_registry())
+    fits = [fit_joint(joint, each) for each in (measured, measured_from(2), measured_from(4))]
+    ties = [tie for fit in fits for tie in fit.shared]
+    assert len(ties) == 3 and all(tie.interval[0] < 20e-3 < tie.interval[1] and tie.apart > 1e-4 for tie in ties)
+    ratios = [width(tie.interval) / min(width(one) for _, one in tie.alone.values()) for tie in ties]
+    assert np.mean(ratios) < 0.95
+    found, shared = fits[0], ties[0]
     for name, fit in found.fits.items():
         assert fit.errors.train < 1.02 * found.alone[name].errors.train
         times = [slot.value.number for slot in fit.fitted.slots() if slot.path == "relaxing.relaxation_time"]
