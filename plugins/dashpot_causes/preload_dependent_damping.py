@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from dashpot.contract.cause import Atom, Cause, Suspect, View, branch_lines, free_name
 from dashpot.model.network import Branch, NetworkSpec
 from dashpot.model.patch import add_branch, add_to_branch, branch_names
-from dashpot.text.problem import InputError, Place
 from dashpot.text.quantity import pretty, pretty_all
 from dashpot_causes.along_curves import damped
 from dashpot_causes.factors import SMALLEST_FACTOR, at_all_places, factors_of
@@ -42,27 +41,22 @@ class PreloadDependentDamping(Cause):
     }
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
-        """A factor over deflection, through few knots, on the dashpots and Maxwell branches, or on new ones.
-
-        That of a dashpot may have knots between the others as well: a damper with grooves or a hydraulic stop has
-        borders at which it changes at once.
-        """
+        """A factor over deflection, through few knots, on the dashpots and Maxwell branches, or on new ones."""
         knots = tuple(np.linspace(*view.reach, KNOTS))
         branches = [member for member in network.root.members if isinstance(member, Branch)]
         plain = [branch for branch in branches if branch.scale is None]
         dampers = [(branch.name, damping) for branch in plain if (damping := _straight(branch))]
         damper = _OnBranch(*dampers[0], _extend) if dampers else _extend
         sign: Literal[0, 1] = 0 if any(branch.element.word == "damper" for branch in branches) else 1
-        for count in (KNOTS, 2 * KNOTS - 1):
-            yield _suspect(
-                f"{count} knots",
-                tuple(np.linspace(*view.reach, count)),
-                ("damping at a knot", "N*s/m"),
-                _damping,
-                damper,
-                sign=sign,
-                admits=anyhow if dampers else changes,
-            )
+        yield _suspect(
+            f"{KNOTS} knots",
+            knots,
+            ("damping at a knot", "N*s/m"),
+            _damping,
+            damper,
+            sign=sign,
+            admits=anyhow if dampers else changes,
+        )
         relaxing = [branch for branch in plain if branch.element.word == "maxwell"]
         for family in dict.fromkeys(branch.family or branch.name for branch in relaxing):
             there = _Relaxing([_numbers(branch) for branch in relaxing if family in (branch.family, branch.name)])
@@ -167,10 +161,7 @@ class _Relaxing:
 
 @dataclass(frozen=True)
 class _OnBranch:
-    """Writes a factor on a branch, of which one is ``unit``; where the branch is gone, ``instead`` writes another.
-
-    Raises InputError for a branch that has a factor already.
-    """
+    """Writes a factor on a branch, of which one is ``unit``; where the branch is gone, ``instead`` writes another."""
 
     branch: str
     unit: float
@@ -180,10 +171,7 @@ class _OnBranch:
         if self.branch not in branch_names(text):
             return self.instead(text, atoms)
         factors, reference = factors_of([strength for strength, _ in atoms], self.unit)
-        try:
-            return add_to_branch(text, self.branch, "\n".join(_scale_lines(atoms, factors, reference)))
-        except ValueError as error:
-            raise InputError.at(Place(), str(error), "a branch has one factor over deflection") from error
+        return add_to_branch(text, self.branch, "\n".join(_scale_lines(atoms, factors, reference)))
 
 
 def _extend(text: str, atoms: Sequence[Atom]) -> str:

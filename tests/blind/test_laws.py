@@ -132,12 +132,6 @@ def rubber(motion: Motion, state: State) -> Array:
     return curve + 3e-3 * slope * motion.velocity
 
 
-def grooved_bore(motion: Motion, state: State) -> Array:
-    """Grooves along the middle of the stroke, 6 mm long: where they end the oil has a narrower way."""
-    beyond = np.abs(motion.displacement - 10e-3) - 3e-3
-    return 1500.0 / (1.0 + np.exp(-beyond / 0.25e-3)) * motion.velocity
-
-
 def lip_seal(motion: Motion, state: State) -> Array:
     """Friction of a lip that grips one way."""
     return np.where(motion.velocity > 0.0, 55.0, 20.0) * np.tanh(motion.velocity / 1e-3)
@@ -276,7 +270,6 @@ CASES = [
     Case("end_stop", droop_strap),
     Case("relaxation", fung, HEAD + BENT + DAMPER, stiffness=0.0),
     Case("preload_dependent_damping", rubber, HEAD + BENT + DAMPER, stiffness=0.0, damping=0.0),
-    Case("preload_dependent_damping", grooved_bore),
     Case("clearance", loose_bush, stiffness=0.0, damping=0.0),
     Case("friction", lip_seal),
     Case("friction", rod_wiper),

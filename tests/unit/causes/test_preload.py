@@ -8,7 +8,6 @@ from unit.causes.test_promises import DAMPING, NETWORK, REGISTRY, VIEW
 
 from dashpot.kernel.eager import simulate_eagerly
 from dashpot.model.reading import parse_network
-from dashpot.text.problem import InputError
 
 STIFFNESS, TIME = 4e4, 30e-3
 RELAXING = NETWORK + f"  soft: {{element: maxwell, stiffness: {STIFFNESS:g} N/m, relaxation_time: {TIME:g} s}}\n"
@@ -78,19 +77,6 @@ def test_damping_of_one_sign_only_where_no_dashpot_can_give_way():
     spring = NETWORK.replace(f"  damping: {{element: damper, damping: {DAMPING:g} N*s/m}}\n", "")
     assert suspects(NETWORK)["4 knots"].sign == 0
     assert suspects(spring)["4 knots"].sign == 1
-
-
-def test_more_knots_hold_what_fewer_do_and_take_their_place():
-    """Monotone cubics differ by a hundredth. Both cannot be on one dashpot: nothing is written beside a factor."""
-    few, more = suspects(NETWORK)["4 knots"], suspects(NETWORK)["7 knots"]
-    assert np.isclose(np.subtract.outer(few.grid, more.grid), 0.0).any(axis=1).all()
-    for run in VIEW.runs:
-        coarse, fine = few.columns(VIEW, run), more.columns(VIEW, run)
-        rest = coarse - np.linalg.lstsq(fine.T, coarse.T, rcond=None)[0].T @ fine
-        assert np.sum(rest**2) < 0.01 * np.sum(coarse**2)
-    once = few.extend(NETWORK, [(100.0, few.grid[1])])
-    with pytest.raises(InputError, match="'scale' stands there already.*one factor over deflection"):
-        more.extend(once, [(100.0, more.grid[1])])
 
 
 def test_a_single_knot_is_written_as_a_curve_through_all():
