@@ -51,7 +51,7 @@ class Clearance(Cause):
             )
 
         if middle is not None:
-            place = {"place": middle} if abs(middle) > least else {}
+            place = {"place": middle} if abs(middle) > least else {}  # nearer to zero it is at zero
             unknowns = 1 + len(place)
             yield added_branch("clearance", "clearance", gaps, _dead_zone(place), UNITS, unknowns=unknowns)
             for time in PHASES / (2.0 * np.pi * view.highest_frequency):

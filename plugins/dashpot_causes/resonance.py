@@ -22,7 +22,7 @@ UNITS = {
     "quadratic_damping": "N*s^2/m^2",
 }
 BROAD, NARROW = (0.25, 9), (0.06, 28)  # damping ratio, and how many frequencies it takes to miss none
-TURBULENT = (0.2, 0.8, 3.2)  # damping ratios of the turbulence alone, at half of the largest speed
+TURBULENT = (0.2, 0.8)  # damping ratios of the turbulence alone, at half of the largest speed
 LOWEST = 0.15  # of the end of the measured band
 BELOW = 3.0  # times lower than where resonances are looked for
 OVERDAMPED = 1.0  # damping ratio from which on it is relaxation

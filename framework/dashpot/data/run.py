@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 KINDS = ("quasi_static", "sweep", "harmonic", "random", "hold", "transient")
+# what kinds of runs are called elsewhere
 OTHER_WORDS = {
     **dict.fromkeys(("static", "slow", "ramp", "triangle", "triangular", "quasistatic"), "quasi_static"),
     **dict.fromkeys(("chirp", "swept_sine", "sine_sweep"), "sweep"),
@@ -15,7 +16,7 @@ OTHER_WORDS = {
     **dict.fromkeys(("noise", "white_noise", "road", "stochastic"), "random"),
     **dict.fromkeys(("static_hold", "step_and_hold", "dwell"), "hold"),
     **dict.fromkeys(("step", "impact", "drop", "pulse", "free_decay"), "transient"),
-}  # of users for kinds
+}
 
 
 @dataclass(frozen=True, eq=False)

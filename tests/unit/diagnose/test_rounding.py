@@ -49,8 +49,8 @@ def test_mean_and_variance_of_the_error_are_sums_of_its_harmonics(convert, noise
     for found, shapes in ((error.mean(axis=0), rounding.means), (error.var(axis=0), rounding.variances)):
         rows = np.concatenate([ones, shapes])
         rest = found - np.linalg.lstsq(rows.T, found, rcond=None)[0] @ rows
-        assert np.std(found) > 0.01
-        assert np.std(rest) < 0.02  # of the mean of 4000 draws, and of their variance
+        assert np.std(found) > 0.03
+        assert np.std(rest) < 0.008  # a mean of 4000 draws scatters by 0.0066 at most, a variance by 0.004
 
 
 def test_steps_finer_than_the_residual_leave_nothing():
