@@ -21,7 +21,6 @@ from dashpot.diagnose.rounding import Rounding, rounding_of
 from dashpot.diagnose.table_rows import records
 from dashpot.diagnose.view import ModelView
 from dashpot.diagnose.whitening import Noise
-from dashpot.fit.scored import ScoredRun
 
 Array = NDArray[np.float64]
 
@@ -96,16 +95,20 @@ def _free(refitter: Refitter, look: Look, noise: Noise) -> tuple[dict[str, Array
     """
     residual, tangents = refitter.linearise(look.model, noise)
     bends = bends_of_tables(refitter.runs, look.view, look.model.fitted)
-    rounded = {run.name: _rounding(run, look).means for run in records(refitter.runs)}
-    beside = {run: np.concatenate([bend, rounded.get(run, bend[:0])]) for run, bend in bends.items()}
+    rounded = _roundings(refitter, look)
+    beside = {run: np.concatenate([bend, rounded[run].means]) if rounded else bend for run, bend in bends.items()}
     free = {run: np.concatenate([rows, noise.whiten(run, beside[run])]) for run, rows in tangents.items()}
     gram = sum(rows @ rows.T for rows in free.values())
     strengths = _inverse(gram) @ sum(rows @ residual[run] for run, rows in free.items())
     return {run: residual[run] - strengths @ rows for run, rows in free.items()}, free
 
 
-def _rounding(run: ScoredRun, look: Look) -> Rounding:
-    return rounding_of(run.force[run.first :], look.view.force(run.name)[run.first :])
+def _roundings(refitter: Refitter, look: Look) -> dict[str, Rounding]:
+    """What the force of each run was rounded by, where any record is coarse; else nothing."""
+    found = {run.name: Rounding(np.zeros(run.samples)) for run in refitter.runs}
+    for run in records(refitter.runs):
+        found[run.name] = rounding_of(run.force[run.first :], look.view.force(run.name)[run.first :])
+    return found if any(rounding.coarse for rounding in found.values()) else {}
 
 
 def _correlation(refitter: Refitter, look: Look, residual: Mapping[str, Array], free: Mapping[str, Array]) -> Leftover:
@@ -164,17 +167,17 @@ def _uneven(refitter: Refitter, look: Look, residual: Mapping[str, Array]) -> Le
     By their size a few samples, such as the corners of a triangle, would have all the leverage, and their noise would
     decide.
     """
-    found, names = [], list[str]()
+    found, names, rounded = [], list[str](), _roundings(refitter, look)
     for run in records(refitter.runs):
         functions = _ranks(look.view, run.name)
         names = list(functions)
         rows = np.array([*functions.values(), np.ones(run.force.size)])[:, run.first :]
-        sums = look.measured_noise.reduce(run.name, np.concatenate([rows, _rounding(run, look).variances]))
+        rows = np.concatenate([rows, rounded[run.name].variances]) if rounded else rows
+        sums = look.measured_noise.reduce(run.name, rows)
         found.append(np.concatenate([residual[run.name][None] ** 2, sums / sums[len(names)]]))
     if not found:
         return Leftover(0.0, 0.0, "has no size that could follow the motion")
-    width = max(map(len, found))
-    whole = np.concatenate([np.pad(rows, ((0, width - len(rows)), (0, 0))) for rows in found], axis=1)
+    whole = np.concatenate(found, axis=1)
     squares, rows, beside, samples = whole[0], whole[1 : len(names) + 1], whole[len(names) + 1 :], whole.shape[1]
     away = squares - _projected(squares, beside)
     rows = rows - _projected(rows, beside)

@@ -23,33 +23,33 @@ class Rounding:
     """
 
     angle: Array
-    harmonics: int = STEP_HARMONICS
+    coarse: bool = False
 
     @property
     def means(self) -> Array:
-        """What the mean error of rounding consists of (harmonics, n)."""
-        return np.sin(self._orders * self.angle)
+        """What the mean error of rounding consists of (STEP_HARMONICS, n); zero of a record that is not coarse."""
+        return self.coarse * np.sin(self._angles)
 
     @property
     def variances(self) -> Array:
-        """What its variance consists of beside a constant (harmonics, n)."""
-        return np.cos(self._orders * self.angle)
+        """What its variance consists of beside a constant (STEP_HARMONICS, n), likewise."""
+        return self.coarse * np.cos(self._angles)
 
     @property
-    def _orders(self) -> Array:
-        return np.arange(1.0, self.harmonics + 1.0)[:, None]
+    def _angles(self) -> Array:
+        return np.outer(np.arange(1.0, STEP_HARMONICS + 1.0), self.angle)
 
 
 def rounding_of(recorded: Array, modelled: Array) -> Rounding:
     """That of a recorded force (n,) N, of which a model has another one (n,) N.
 
-    Without harmonics for a record without steps, and for steps smaller than the RMS of the residual: noise of that size
-    makes the error of rounding independent of the force.
+    Not coarse are a record without steps, and steps smaller than the RMS of the residual: noise of that size makes the
+    error of rounding independent of the force.
     """
     step, level = steps_of(recorded)
     if step <= np.sqrt(np.mean((recorded - modelled) ** 2)):
-        return Rounding(np.zeros(recorded.size), 0)
-    return Rounding(2.0 * np.pi * (modelled - level) / step)
+        return Rounding(np.zeros(recorded.size))
+    return Rounding(2.0 * np.pi * (modelled - level) / step, coarse=True)
 
 
 def steps_of(recorded: Array) -> tuple[float, float]:

@@ -55,7 +55,8 @@ def test_mean_and_variance_of_the_error_are_sums_of_its_harmonics(convert, noise
 
 def test_steps_finer_than_the_residual_leave_nothing():
     force = np.linspace(-3.0, 3.0, 601)
-    assert rounding_of(recorded(force, 1.0), force + np.random.default_rng(4).standard_normal(601)).means.size == 0
+    found = rounding_of(recorded(force, 1.0), force + np.random.default_rng(4).standard_normal(601))
+    assert not found.coarse and not found.means.any() and not found.variances.any()
 
 
 def leftover_of(data):
@@ -75,6 +76,14 @@ def rounded(data, step):
 def test_rounding_alone_is_no_structure(seed):
     """Steps of 16 standard deviations of the noise: a sweep always turns at the same place in one."""
     assert not leftover_of(rounded(dataset(seed=seed, noise=0.5), 8.0)).notable()
+
+
+def test_runs_of_fine_steps_may_be_beside_runs_of_coarse_ones():
+    """Another range of the converter in two of the runs."""
+    fine = dataset(noise=0.5)
+    coarse = {run.name: run for run in rounded(fine, 8.0).runs if run.name in ("a1_p5", "a3_p8")}
+    mixed = replace(fine, runs=tuple(coarse.get(run.name, run) for run in fine.runs))
+    assert not leftover_of(mixed).notable()
 
 
 def test_a_line_beside_rounding_is_found():
