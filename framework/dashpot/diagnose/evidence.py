@@ -55,7 +55,7 @@ def is_determined(scores: Scores, number: int) -> bool:
     if any(at and path in model.owned[number] for at, path in zip(model.at_bound, paths, strict=True)):
         return False
     columns = scores.columns(Structure())
-    gram = scores.gram()[np.ix_(columns, columns)]
+    gram = scores.gram().block(columns, columns)
     errors = np.sqrt(np.diag(np.linalg.pinv(gram, rcond=1e-12, hermitian=True)))
     for column, error in zip(columns, errors, strict=True):
         k = look.own[column - 1]

@@ -27,55 +27,88 @@ NONE = frozenset[int]()
 
 
 @dataclass(frozen=True, eq=False)
-class Beside:
-    """Columns with those in front fitted to each on all runs.
+class Gram:
+    """A Gram matrix (c, c): the ``whole`` (c, c), and the squares of what comes ``back`` (g, c) beside it."""
 
-    ``moves`` (e, c) are the strengths of the columns in front that take up one of each, ``base_moves`` (b, c) those of
-    the base, ``squares`` (c,) the residual of the columns. ``gram`` (c, c) is the Gram matrix of all runs, and of what
-    is known beforehand, of columns divided by their ``scale`` (c,). ``precision`` (e,) is that of the columns in front,
-    ``tangents`` how many parameters terms have, and ``occam`` the nats by which the marginal likelihood is below
-    that of the best strengths. ``grams`` (groups, e + c, e + c) are those of the groups, before anything is fitted.
+    whole: Array
+    back: Array
+
+    def block(self, rows: NDArray[np.intp], columns: NDArray[np.intp]) -> Array:
+        """Its elements (r, k) in some rows (r,) and columns (k,)."""
+        found: Array = self.whole[rows[:, None], columns] + self.back[:, rows].T @ self.back[:, columns]
+        return found
+
+    def times(self, rows: NDArray[np.intp], combination: Array) -> Array:
+        """Some rows (r,) times a combination (c,) of few of the columns."""
+        at = np.flatnonzero(combination)
+        found: Array = self.block(rows, at) @ combination[at]
+        return found
+
+    @property
+    def diagonal(self) -> Array:
+        """Its diagonal (c,)."""
+        return np.diag(self.whole) + np.sum(self.back**2, axis=0)
+
+
+@dataclass(frozen=True, eq=False)
+class Beside:
+    """The columns of a ``front`` beside those in front that stay: some are ``going`` (g,) with their terms.
+
+    Without them each column takes up (g, c) of its own ``comes_back``. ``gram`` is the Gram matrix of all runs, and of
+    what is known beforehand, of columns divided by their scale. ``occam`` are the nats by which the marginal likelihood
+    is below that of the best strengths.
     """
 
-    columns: NDArray[np.intp]
-    moves: Array
-    base_moves: Array
-    squares: Array
-    scale: Array
-    gram: Array
-    precision: Array
-    tangents: int
+    front: Front
+    going: NDArray[np.intp]
+    comes_back: Array
+    gram: Gram
     occam: float
-    grams: NDArray[np.floating]
 
     @property
     def nbytes(self) -> int:
         """The bytes of its matrices."""
-        return (
-            self.moves.nbytes + self.base_moves.nbytes + self.gram.nbytes + len(self.grams) * 8 * len(self.moves) ** 2
-        )
+        return self.comes_back.nbytes + self.gram.back.nbytes + len(self.front.grams) * 8 * self.moved.size
 
     @cached_property
-    def _inner(self) -> Array:
-        """The Gram matrices (groups, e, e) of the columns in front."""
-        front = self.columns[: len(self.moves)]
-        return self.grams[:, front[:, None], front].astype(float)
+    def moved(self) -> Array:
+        """How the strengths (e, g) of the columns in front follow those that are going."""
+        return self.front.covariance[:, self.going]
+
+    @cached_property
+    def _pulled(self) -> Array:
+        """The products (groups, g, e) of that with the columns in front, by group."""
+        return self.front.pulled_together[:, self.going]
+
+    def taken(self, at: NDArray[np.intp]) -> Array:
+        """The strengths (e, k) of the columns in front that take up one of each of the columns ``at`` (k,)."""
+        found: Array = self.front.moves[:, at] - self.moved @ self.comes_back[:, at]
+        found[self.going] = 0.0
+        return found
+
+    def base_moves(self, combination: Array) -> Array:
+        """The strengths (b,) of the base that take up a combination (c,) of the columns."""
+        at, first = np.flatnonzero(combination), self.front.precision.size
+        own, base = combination[at], self.front.base_moves
+        found: Array = base[:, first + at] @ own - base[:, :first] @ (self.taken(at) @ own)
+        return found
 
     def groups(self, combined: Array) -> Array:
         """The Gram matrices (groups, k, k) of combinations (c, k) of these columns, by the group of runs."""
-        used, kept = np.flatnonzero(combined.any(axis=1)), len(self.moves)
-        front, at, own = self.columns[:kept], self.columns[kept + used], combined[used]
-        taken = self.moves[:, used] @ own
-        cross = own.T @ self.grams[:, at[:, None], front] @ taken
-        found: Array = own.T @ self.grams[:, at[:, None], at] @ own + taken.T @ (self._inner @ taken)
-        found -= cross
-        found -= cross.transpose(0, 2, 1)
+        at, grams, first = np.flatnonzero(combined.any(axis=1)), self.front.grams, self.front.precision.size
+        own, places = combined[at], first + at
+        half = 0.5 * (self.front.pulled(at) - self.comes_back[:, at].T @ self._pulled)
+        cross = (half - grams[:, places, :first]) @ self.taken(at)
+        inner = grams[:, places[:, None], places] + cross + cross.transpose(0, 2, 1)
+        found: Array = own.T @ inner @ own
         return found
 
     def unlikely(self, strengths: Array) -> float:
         """How unlikely a combination (c,) of the columns is beforehand, in nats."""
-        in_front = self.precision @ (self.moves @ strengths) ** 2
-        numbers = np.sum(strengths[1 : 1 + self.tangents] ** 2)  # one natural size is their standard deviation
+        at = np.flatnonzero(strengths)
+        in_front = self.front.precision @ (self.taken(at) @ strengths[at]) ** 2
+        # one natural size is the standard deviation of a number
+        numbers = np.sum(strengths[1 : 1 + self.front.tangents] ** 2)
         return 0.5 * float(in_front + numbers) + self.occam
 
 
@@ -95,6 +128,7 @@ class Front:
     owners: NDArray[np.intp]
     tangents: int
     _known: dict[frozenset[int], Beside] = field(default_factory=dict)
+    _pulls: dict[int, Array] = field(default_factory=dict)
 
     def beside(self, gone: frozenset[int] = NONE) -> Beside:
         """The columns where some terms are ``gone``, and with them the errors of their forms.
@@ -113,43 +147,69 @@ class Front:
         """The terms with errors of their form."""
         return frozenset(self.owners.tolist())
 
-    def _without(self, gone: frozenset[int]) -> Beside:
-        return self._part(self.beside(), np.isin(self.owners, list(gone))) if gone else self._beside_all()
+    @cached_property
+    def covariance(self) -> Array:
+        """The covariance (e, e) of the strengths of the columns in front."""
+        return covariance(self.total, self.precision)
 
-    def _beside_all(self) -> Beside:
-        first, total, precision = self.precision.size, self.total, self.precision
-        moves = in_front(total, precision)
-        gram = beside(total, moves)
+    @cached_property
+    def moves(self) -> Array:
+        """The strengths (e, c) of the columns in front that take up one of each of the others."""
+        first = self.precision.size
+        return self.covariance @ self.total[:first, first:]
+
+    @property
+    def squares(self) -> Array:
+        """The squares (c,) of what the columns in front leave of each of the others."""
+        return self._eliminated[0]
+
+    @property
+    def scale(self) -> Array:
+        """The sizes (c,) of the columns beside those in front."""
+        return self._eliminated[1]
+
+    @cached_property
+    def _eliminated(self) -> tuple[Array, Array, Array]:
+        """What the columns in front leave of the others: squares (c,), scale (c,) and Gram matrix (c, c).
+
+        That is of columns divided by their scale, with what is known beforehand.
+        """
+        gram = beside(self.total, self.moves)
         squares = np.diag(gram).copy()
-        gram += moves.T @ (precision[:, None] * moves)
+        gram += self.moves.T @ (self.precision[:, None] * self.moves)
         numbers = range(1, 1 + self.tangents)
         gram[numbers, numbers] += 1.0
         # below that share of a column what the others leave of it is rounding
-        scale = np.sqrt(np.maximum(np.maximum(squares, RIDGE * np.diag(total)[first:]), 1e-300))
+        least = RIDGE * np.diag(self.total)[self.precision.size :]
+        scale = np.sqrt(np.maximum(np.maximum(squares, least), 1e-300))
         gram /= np.outer(scale, scale)
-        base = self.base_moves[:, first:] - self.base_moves[:, :first] @ moves
-        columns = np.arange(len(total))
-        nats = occam(total, precision)
-        return Beside(columns, moves, base, squares, scale, gram, precision, self.tangents, nats, self.grams)
-
-    def _part(self, whole: Beside, going: NDArray[np.bool_]) -> Beside:
-        """The same where some of the columns in front are ``going`` (e,): a change of their rank."""
-        first, kept = self.precision.size, np.flatnonzero(~going)
-        pull = _inverse(self._covariance[np.ix_(going, going)]) @ whole.moves[going]
-        moves = whole.moves[kept] - self._covariance[np.ix_(kept, going)] @ pull
-        comes_back = (whole.moves[going] / whole.scale).T @ (pull / whole.scale)
-        base = self.base_moves[:, first:] - self.base_moves[:, kept] @ moves
-        columns = np.concatenate([kept, np.arange(first, len(self.total))])
-        precision, gram = self.precision[kept], whole.gram + comes_back
-        squares = np.diag(gram) * whole.scale**2 - precision @ moves**2
-        squares[1 : 1 + self.tangents] -= 1.0
-        nats = occam(self.total[np.ix_(kept, kept)], precision)
-        return Beside(columns, moves, base, squares, whole.scale, gram, precision, self.tangents, nats, self.grams)
+        return squares, scale, gram
 
     @cached_property
-    def _covariance(self) -> Array:
-        """The covariance (e, e) of the strengths of the columns in front."""
-        return covariance(self.total, self.precision)
+    def pulled_together(self) -> Array:
+        """The products (groups, e, e) of what moves with each column in front with these columns, by group."""
+        first = self.precision.size
+        found: Array = self.covariance @ self.grams[:, :first, :first].astype(float)
+        return found
+
+    def pulled(self, at: NDArray[np.intp]) -> Array:
+        """The products (groups, k, e) of what takes up each of the columns ``at`` (k,) with the columns in front."""
+        first = self.precision.size
+        fresh = [place for place in at.tolist() if place not in self._pulls]
+        if fresh:
+            found = self.total[first + np.array(fresh), :first] @ self.pulled_together
+            self._pulls.update(zip(fresh, found.transpose(1, 0, 2), strict=True))
+        return np.stack([self._pulls[place] for place in at.tolist()], axis=1)
+
+    def _without(self, gone: frozenset[int]) -> Beside:
+        """Where the columns in front of some terms are going: a change of their rank."""
+        leaves = np.isin(self.owners, list(gone))
+        going, stays = np.flatnonzero(leaves), np.flatnonzero(~leaves)
+        root = _inverse_root(self.covariance[np.ix_(going, going)])
+        back = root @ self.moves[going]
+        gram = Gram(self._eliminated[2], back / self.scale)
+        nats = occam(self.total[np.ix_(stays, stays)], self.precision[stays])
+        return Beside(self, going, root.T @ back, gram, nats)
 
 
 def front_of(
@@ -229,9 +289,16 @@ def covariance(total: Array, precision: Array) -> Array:
 
 def _inverse(matrix: Array) -> Array:
     """The inverse (f, f) of a positive matrix; of what is not told in it, the smallest."""
+    root = _inverse_root(matrix)
+    return np.asarray(root.T @ root)
+
+
+def _inverse_root(matrix: Array) -> Array:
+    """A root (rank, f) of the inverse of a positive matrix (f, f): its transpose times it is the inverse."""
     scale = np.sqrt(np.maximum(np.diag(matrix), 1e-300))
-    unit = np.outer(scale, scale)
-    found: Array = np.linalg.pinv(matrix / unit, rcond=1e-11, hermitian=True) / unit
+    sizes, axes = np.linalg.eigh(matrix / np.outer(scale, scale))
+    told = sizes > 1e-11 * sizes.max(initial=0.0)
+    found: Array = (axes[:, told] / np.sqrt(sizes[told])).T / scale
     return found
 
 

@@ -35,7 +35,7 @@ def find_limits(look: Look, relevance: float) -> list[tuple[Candidate, Limit | N
     """
     found: dict[tuple[str, str], tuple[Candidate, Limit | None]] = {}
     odds, first = look.odds, look.layout.first_candidate
-    left = look.front.beside().squares
+    left = look.front.squares
     noise = np.sqrt(float(left[0]) / float(look.samples.sum()))
     for candidate in (candidate for candidate in look.candidates if candidate.provable):
         _, best = found.setdefault(candidate.name, (candidate, None))

@@ -18,7 +18,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from dashpot.diagnose.front import NONE
+from dashpot.diagnose.front import NONE, Gram
 from dashpot.diagnose.look import Look
 
 Array = NDArray[np.float64]
@@ -54,11 +54,11 @@ class Scores:
 
     def __post_init__(self) -> None:
         self.odds = self.look.odds
-        self.scale = self.look.front.beside().scale
+        self.scale = self.look.front.scale
         self.kinds = [term.kind for term in self.look.model.terms]
         self.given = frozenset(number for number, kind in enumerate(self.kinds) if kind == "given")
 
-    def gram(self, gone: frozenset[int] = NONE) -> Array:
+    def gram(self, gone: frozenset[int] = NONE) -> Gram:
         """The Gram matrix (c, c) of the scaled columns beside what is refitted where some terms are ``gone``.
 
         With what is known of the strengths beforehand.
@@ -70,7 +70,7 @@ class Scores:
         paths = self.look.model.coordinates.paths
         gone = {path for number in structure.dropped for path in self.look.model.owned[number]}
         kept = [1 + k for k, at in enumerate(self.look.own) if paths[at] not in gone]
-        alive = [at for at in kept if self.look.front.beside().squares[at] > 0.0]
+        alive = [at for at in kept if self.look.front.squares[at] > 0.0]
         return np.array([*alive, *self.atoms(structure)], dtype=np.intp)
 
     def atoms(self, structure: Structure) -> list[int]:
@@ -93,9 +93,9 @@ class Scores:
 
     def strengths(self, structure: Structure) -> Array:
         """The solution on all runs, one for each of ``columns``, in their own units."""
-        at, target, gram = self.columns(structure), self.target(structure), self.gram(structure.dropped)
-        solution = np.linalg.solve(steadied(gram, at), gram[at] @ target)
-        return solution * self.scale[0] / self.scale[at]
+        at = self.columns(structure)
+        solution = np.linalg.solve(*self._equations(structure, at, self.target(structure)))
+        return np.asarray(solution * self.scale[0] / self.scale[at])
 
     def moves(self, structure: Structure) -> Array:
         """The natural steps (p,) of all parameters of the model that a structure foresees."""
@@ -103,9 +103,9 @@ class Scores:
         found = np.zeros(look.model.point.size)
         tangents = at <= look.layout.tangents
         found[look.own[at[tangents] - 1]] = strengths[tangents]
-        target = self.target(structure) * self.scale[0] / self.scale
-        moves = look.front.beside(structure.dropped).base_moves[: look.base.size]
-        found[look.base] = moves @ target - moves[:, at] @ strengths
+        rest = self.target(structure) * self.scale[0] / self.scale
+        rest[at] -= strengths
+        found[look.base] = look.front.beside(structure.dropped).base_moves(rest)[: look.base.size]
         return found
 
     def admitted(self, structure: Structure) -> bool:
@@ -129,15 +129,19 @@ class Scores:
         return self.known[structure]
 
     def _predicted(self, structure: Structure) -> tuple[Array, float]:
-        at, target, gone = self.columns(structure), self.target(structure), structure.dropped
-        beside, gram, samples = self.look.front.beside(gone), self.gram(gone), self.look.samples
-        foreseen = structure != Structure()
-        left = _left_out(beside.groups(_scaled(self.scale, at, target)), gram, at, target, foreseen)
-        rest = target.copy()
+        at, target, samples = self.columns(structure), self.target(structure), self.look.samples
+        beside, foreseen = self.look.front.beside(structure.dropped), structure != Structure()
+        whole, right = self._equations(structure, at, target)
+        left = _left_out(beside.groups(_scaled(self.scale, at, target)), whole, right, foreseen)
         if foreseen:
-            rest[at] -= np.linalg.solve(steadied(gram, at), gram[at] @ target)
-        rest *= self.scale[0] / self.scale
+            target[at] -= np.linalg.solve(whole, right)
+        rest = target * self.scale[0] / self.scale
         return np.maximum(left * self.scale[0] ** 2 / samples, 1e-12), beside.unlikely(rest)
+
+    def _equations(self, structure: Structure, at: NDArray[np.intp], target: Array) -> tuple[Array, Array]:
+        """The normal equations, a matrix (k, k) and a right side (k,), of the columns of a structure on all runs."""
+        gram = self.gram(structure.dropped)
+        return steadied(gram.block(at, at)), gram.times(at, target)
 
     def exact(self) -> Array:
         """Mean square (groups,) of each group, predicted from all others by the present structure.
@@ -151,7 +155,9 @@ class Scores:
         known = np.diag(np.append(0.0, np.ones(scale.size - 1)))
         target = np.eye(scale.size)[0]
         combined = _scaled(scale, alive, target)
-        left = _left_out(combined.T @ self.look.exact @ combined, (total + known) / unit, alive, target, foreseen=False)
+        gram = (total + known) / unit
+        whole, right = steadied(gram[np.ix_(alive, alive)]), gram[alive, 0]
+        left = _left_out(combined.T @ self.look.exact @ combined, whole, right, foreseen=False)
         return np.maximum(left * scale[0] ** 2 / self.look.samples, 1e-12)
 
     def price(self, structure: Structure) -> float:
@@ -189,15 +195,15 @@ def _scaled(scale: Array, at: NDArray[np.intp], target: Array) -> Array:
     return found
 
 
-def _left_out(grams: Array, gram: Array, at: NDArray[np.intp], target: Array, foreseen: bool) -> Array:
-    """The squares (groups,) of a target that columns ``at`` leave in each group, with strengths from all others.
+def _left_out(grams: Array, whole: Array, right: Array, foreseen: bool) -> Array:
+    """The squares (groups,) of a target that columns leave in each group, with strengths from all others.
 
-    ``grams`` (groups, k + 1, k + 1) are those of the columns and the target; ``gram`` (c, c), of all columns, is their
-    sum over the groups, and what is known of the strengths beforehand. Where the strengths are not ``foreseen`` the
-    model stays as it is, but for what leaving a group out changes: a step that a fit has not made promises too much.
+    ``grams`` (groups, k + 1, k + 1) are those of the columns and the target. ``whole`` (k, k) and ``right`` (k,), the
+    normal equations, hold their sum over the groups, and what is known of the strengths beforehand. Where the strengths
+    are not ``foreseen`` the model stays as it is, but for what leaving a group out changes: a step that a fit has not
+    made promises too much.
     """
     inner, cross, square = grams[:, :-1, :-1], grams[:, :-1, -1], grams[:, -1, -1]
-    whole, right = steadied(gram, at), gram[at] @ target
     # what the other groups hardly tell is not put to the test: there the fit to all runs stands in
     tied = 1.0 / len(inner)
     solved = np.linalg.solve((1.0 + tied) * whole - inner, ((1.0 + tied) * right - cross)[..., None])
@@ -207,6 +213,6 @@ def _left_out(grams: Array, gram: Array, at: NDArray[np.intp], target: Array, fo
     return left + np.sum(solved * (inner @ solved), axis=(1, 2))
 
 
-def steadied(gram: Array, at: NDArray[np.intp]) -> Array:
-    """The Gram matrix (k, k) of columns ``at`` (k,), where strengths that nothing tells stay small."""
-    return gram[np.ix_(at, at)] + STEADY * np.eye(at.size)
+def steadied(gram: Array) -> Array:
+    """A Gram matrix (k, k) of columns, where strengths that nothing tells stay small."""
+    return gram + STEADY * np.eye(len(gram))

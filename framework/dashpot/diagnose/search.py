@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from dashpot.diagnose.candidate import Candidate
 from dashpot.diagnose.exclusive import can_be_beside, dependent_numbers
-from dashpot.diagnose.front import NONE
+from dashpot.diagnose.front import NONE, Gram
 from dashpot.diagnose.score import Added, Scores, Structure, steadied
 from dashpot.diagnose.term import Term
 
@@ -70,20 +70,22 @@ class _Projected:
     """Scores ``right`` (m,) and squares ``sizes`` (m,) of the candidates' columns, everything in a structure projected
     out. A unit of the square of the residual is worth ``nats``.
 
-    ``whole`` (m, m) is the Gram matrix of the columns before that, ``across`` (k, m) their products with the k columns
-    of the structure, and ``solved`` (k, m) the strengths of these that take up one of each.
+    ``whole`` is the Gram matrix before that, in which the columns stand at ``places`` (m,), ``across`` (k, m) are their
+    products with the k columns of the structure, and ``solved`` (k, m) the strengths of these that take up one of each.
     """
 
     right: Array
     sizes: Array
     nats: float
-    whole: Array
+    whole: Gram
+    places: NDArray[np.intp]
     across: Array
     solved: Array
 
     def gram(self, at: NDArray[np.intp]) -> Array:
         """The Gram matrix (n, n) of some columns."""
-        left: Array = self.whole[at[:, None], at] - self.across[:, at].T @ self.solved[:, at]
+        own = self.places[at]
+        left: Array = self.whole.block(own, own) - self.across[:, at].T @ self.solved[:, at]
         return left
 
 
@@ -144,19 +146,17 @@ def _varied(scores: Scores, ordered: Sequence[tuple[float, Added]]) -> list[Adde
 
 
 def _project(scores: Scores, structure: Structure) -> _Projected:
-    at, target = scores.columns(structure), scores.target(structure)
-    first = scores.look.layout.first_candidate
-    gram, bank = scores.gram(structure.dropped), slice(first, None)
-    solve = np.linalg.solve(steadied(gram, at), gram[at])
-    told = gram[at] @ target
-    across, whole = gram[at, bank], gram[bank, bank]
-    solved = np.asarray(solve[:, bank], dtype=float)
-    sizes = np.diag(whole) - np.einsum("kc,kc->c", across, solved)
-    square = float(target @ gram @ target - (solve @ target) @ told)
+    at, target, gram = scores.columns(structure), scores.target(structure), scores.gram(structure.dropped)
+    bank = np.arange(scores.look.layout.first_candidate, target.size)
+    told, across, of_target = gram.times(at, target), gram.block(at, bank), np.flatnonzero(target)
+    taken = np.linalg.solve(steadied(gram.block(at, at)), np.column_stack([told, across]))
+    strengths, solved = taken[:, 0], np.asarray(taken[:, 1:], dtype=float)
+    sizes = gram.diagonal[bank] - np.einsum("kc,kc->c", across, solved)
+    square = float(target[of_target] @ gram.times(of_target, target) - strengths @ told)
     samples = float(scores.look.samples.sum())
     # per unit of the residual, so that a gain in squares is one in nats
     nats = 0.5 * samples / max(square, 1e-300)
-    return _Projected(gram[bank] @ target - solved.T @ told, sizes, nats, whole, across, solved)
+    return _Projected(gram.times(bank, target) - solved.T @ told, sizes, nats, gram, bank, across, solved)
 
 
 def _places(candidate: Candidate, left: _Projected, open_to: Sequence[bool]) -> tuple[float, tuple[int, ...]] | None:

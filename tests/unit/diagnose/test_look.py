@@ -75,7 +75,7 @@ def test_gram_matrices_are_those_of_the_residual_and_of_what_a_refit_of_the_base
     all_columns = np.concatenate([rows for _, rows in columns.values()], axis=1)
     strengths = np.linalg.lstsq(base.T, all_columns.T, rcond=None)[0]
     strengths[:, 0] = 0.0
-    scale = np.sqrt(look.front.beside().squares)
+    scale = np.sqrt(look.front.squares)
     left = {run: rows - strengths.T @ tangents for run, (tangents, rows) in columns.items()}
     seen = set()
     for run, rows in left.items():
@@ -205,10 +205,10 @@ def test_errors_of_a_form_go_with_its_term(block, gone, kept):
     mixed = np.arange(8.0).reshape(4, 2) % 3.0 - 1.0
     strengths = np.linalg.solve(forms @ forms.T + np.diag(known), forms @ target.T)
     left = target - strengths.T @ forms
-    assert found.squares == pytest.approx(np.sum(left**2, axis=1))
     assert front.beside(frozenset(gone)).groups(np.eye(4)).sum(axis=0) == pytest.approx(left @ left.T)
     assert front.beside(frozenset(gone)).groups(mixed).sum(axis=0) == pytest.approx(mixed.T @ left @ left.T @ mixed)
-    gram = found.gram * np.outer(found.scale, found.scale)
+    every = np.arange(4)
+    gram = found.gram.block(every, every) * np.outer(front.scale, front.scale)
     assert gram == pytest.approx(target @ np.linalg.solve(covariance, target.T))
     some = np.array([1.0, -2.0, 0.0, 3.0])
     assert found.unlikely(some) == pytest.approx(0.5 * known @ (strengths @ some) ** 2 + found.occam)
