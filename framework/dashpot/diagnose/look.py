@@ -322,6 +322,7 @@ def recorded_noise(columns: Columns, gram: Array, noise: Noise, faults: Mapping[
         covariance = covariance_of(rest, taken)
         return filter_of(covariance, rest.size, _smallest(run)), float(covariance[0])
 
-    left = {run.name: left_of(run) for run in columns.refitter.runs}
-    noise = replace(noise, filters={run: each for run, (each, _) in left.items()}, independent={})
-    return noise, float(np.sqrt(np.mean([square for _, square in left.values()])))
+    runs = columns.refitter.runs
+    left = list(streamed(left_of, runs, columns.refitter.jobs))
+    filters = {run.name: each for run, (each, _) in zip(runs, left, strict=True)}
+    return replace(noise, filters=filters, independent={}), float(np.sqrt(np.mean([square for _, square in left])))
