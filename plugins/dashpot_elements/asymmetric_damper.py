@@ -40,7 +40,7 @@ class AsymmetricDamper(Element):
         "1", "power of the velocity in rebound", bounds=(0.05, 4.0), scale="linear", symbol="n_r", default=1.0
     )
     reference = Parameter(
-        "m/s", "velocity at which the dampings are given", bounds=(1e-4, 1e2), symbol="v_r", default=0.1
+        "m/s", "velocity at which the dampings are given", bounds=(1e-8, 1e2), symbol="v_r", default=0.1
     )
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:

@@ -23,7 +23,7 @@ class DirectionalCoulomb(Element):
 
     compression = Parameter("N", "sliding force in compression", bounds=(1e-3, 1e6), symbol="F_c")
     rebound = Parameter("N", "sliding force in rebound", bounds=(1e-3, 1e6), symbol="F_r")
-    creep_velocity = Parameter("m/s", "velocity over which the force changes sides", bounds=(1e-7, 10.0), symbol="v_c")
+    creep_velocity = Parameter("m/s", "velocity over which the force changes sides", bounds=(1e-9, 10.0), symbol="v_c")
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
         """The law at the velocity at the end of the step."""

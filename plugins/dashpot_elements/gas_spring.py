@@ -26,7 +26,7 @@ class GasSpring(Element):
     passive = False
 
     force = Parameter("N", "force at zero deflection", bounds=(1e-3, 1e7), symbol="F_0")
-    length = Parameter("m", "length of the column of gas at zero deflection", bounds=(1e-4, 100.0), symbol="l")
+    length = Parameter("m", "length of the column of gas at zero deflection", bounds=(1e-6, 100.0), symbol="l")
     exponent = Parameter("1", "polytropic exponent", bounds=(0.9, 2.0), scale="linear", symbol="n", default=1.3)
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:

@@ -21,7 +21,7 @@ class PowerLawDamper(Element):
 
     force = Parameter("N", "force at the reference velocity", bounds=(1e-3, 1e6), symbol="F_r")
     exponent = Parameter("1", "power of the velocity", bounds=(0.05, 4.0), scale="linear", symbol="n")
-    reference = Parameter("m/s", "velocity at which the force is given", bounds=(1e-4, 1e2), symbol="v_r", default=0.1)
+    reference = Parameter("m/s", "velocity at which the force is given", bounds=(1e-8, 1e2), symbol="v_r", default=0.1)
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
         """The law at the velocity at the end of the step."""

@@ -26,7 +26,7 @@ class StribeckCurve(Element):
     breakaway = Parameter("N", "sliding force at very low speed", bounds=(1e-3, 1e6), symbol="F_s")
     stribeck_velocity = Parameter("m/s", "speed over which the force falls", bounds=(1e-5, 10.0), symbol="v_s")
     decay = Parameter("1", "steepness of the fall", bounds=(0.5, 4.0), scale="linear", symbol="delta", default=2.0)
-    creep_velocity = Parameter("m/s", "velocity over which the force changes sides", bounds=(1e-7, 10.0), symbol="v_c")
+    creep_velocity = Parameter("m/s", "velocity over which the force changes sides", bounds=(1e-9, 10.0), symbol="v_c")
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
         """The law at the velocity at the end of the step."""

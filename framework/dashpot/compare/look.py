@@ -16,8 +16,9 @@ from dashpot.compare.shapes import shapes_of
 from dashpot.compare.signals import measured_signals
 from dashpot.compare.strokes import Seen, see, work
 from dashpot.contract.metric import Metric
+from dashpot.data.alignment import NotRepeatsError
 from dashpot.data.dataset import Dataset
-from dashpot.data.repeats import NotRepeatsError, compare_repeats
+from dashpot.data.repeats import compare_repeats
 from dashpot.fit.api import Setting, prepare
 from dashpot.fit.floor import false_repeats
 from dashpot.fit.result import floor_of

@@ -10,6 +10,10 @@ _ROUNDS = 4
 _SMALLEST_LAG = 1e-6
 
 
+class NotRepeatsError(ValueError):
+    """Runs that were said to repeat each other cannot be compared: they moved otherwise, or are too short."""
+
+
 def lag_between(reference: np.ndarray, signal: np.ndarray) -> float:
     """By how many samples `signal` (m,) comes later than `reference` (n,); a fraction counts.
 
@@ -33,13 +37,16 @@ def lag_between(reference: np.ndarray, signal: np.ndarray) -> float:
 
 
 def common_span(length: int, others: list[tuple[int, float]]) -> tuple[int, int]:
-    """First and one-past-last sample of a run of `length` where others, given as (length, lag), can be read too."""
+    """First and one-past-last sample of a run of `length` where others, given as (length, lag), can be read too.
+
+    Raises NotRepeatsError where these are too few.
+    """
     start, stop = 0, length
     for other, lag in others:
         start = max(start, int(np.ceil(_REACH - lag)))
         stop = min(stop, int(np.floor(other - _REACH - lag)))
     if stop - start < 2 * _REACH:
-        raise ValueError(
+        raise NotRepeatsError(
             f"expected runs that overlap by {2 * _REACH} samples beyond the ends, got lags "
             f"{[round(lag, 1) for _, lag in others]} on {length} samples; "
             "measure longer, start them on one trigger, or do not name them repeats"

@@ -49,7 +49,7 @@ def noise_from_repeats(runs: Sequence[tuple[np.ndarray, np.ndarray]], sample_tim
 
     For two it is the RMS of their difference / sqrt 2. They are aligned to a fraction of a sample; what small
     differences of the displacement explain is taken out, and so is a constant difference, which goes to `offset`.
-    Noise of any colour counts in full. Raises NotRepeatsError when the motions differ.
+    Noise of any colour counts in full. Raises NotRepeatsError when the motions differ or the runs are too short.
     """
     departure = compare_repeats(runs, sample_time).departure
     means = departure.mean(axis=1, keepdims=True)

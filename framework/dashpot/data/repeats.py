@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from .alignment import common_span, lag_between, shifted_by
+from .alignment import NotRepeatsError, common_span, lag_between, shifted_by
 
 _PIECES = 16
 _LARGEST_DIFFERENCE = 0.1
@@ -19,10 +19,6 @@ _GUARD = 10
 
 # of the deviation: what reading and writing a number may change
 LAST_DIGIT = 1e-9
-
-
-class NotRepeatsError(ValueError):
-    """Runs that were said to repeat each other do not have the same motion."""
 
 
 @dataclass(frozen=True)
@@ -51,7 +47,8 @@ def compare_repeats(runs: Sequence[tuple[np.ndarray, np.ndarray]], sample_time: 
 
     The force is corrected by the tangent stiffness and the damping that the mean run itself shows piece by piece,
     times the difference of the displacement; not in a piece where that makes the runs differ more, as where the motion
-    rests and shows no tangent. Raises NotRepeatsError when displacements differ by more than a tenth.
+    rests and shows no tangent. Raises NotRepeatsError when displacements differ by more than a tenth, and
+    when there are too few samples.
     """
     if len(runs) < 2:
         raise NotRepeatsError(f"expected at least two repeated runs, got {len(runs)}; name the runs that repeat it")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from itertools import groupby
 
+from dashpot.data.alignment import NotRepeatsError
 from dashpot.data.dataset import Dataset
 from dashpot.data.noise import (
     UNKNOWN,
@@ -13,7 +14,7 @@ from dashpot.data.noise import (
     noise_from_repeats,
     pool_noise,
 )
-from dashpot.data.repeats import NotRepeatsError, is_same_to_the_last_digit
+from dashpot.data.repeats import is_same_to_the_last_digit
 from dashpot.data.run import Run
 from dashpot.data.steady import STEADY
 from dashpot.data.tracking import track
@@ -23,8 +24,8 @@ def noise_floor(dataset: Dataset) -> NoiseFloor:
     """From repeated runs where there are any, else from what lies between and above the orders of the motion.
 
     Of tables alone it is what they state.
-    Declared repeats that moved otherwise do not count; see `false_repeats`. Nor do repeats of a force that a test
-    prescribes to the last digit: they tell no noise of it.
+    Declared repeats that moved otherwise, or are too short, do not count; see `false_repeats`. Nor do repeats of a
+    force that a test prescribes to the last digit: they tell no noise of it.
     """
     stated = [_stated(run) for run in dataset.runs if run.kind == STEADY]
     groups = [told for group in _groups(dataset) if len(told := _not_prescribed(group)) > 1]
@@ -33,9 +34,9 @@ def noise_floor(dataset: Dataset) -> NoiseFloor:
 
 
 def false_repeats(dataset: Dataset) -> list[str]:
-    """Runs that are declared as repeats but moved otherwise; the noise floor leaves them out."""
+    """Runs that are declared as repeats but moved otherwise, or are too short; the noise floor leaves them out."""
     return [
-        f"{', '.join(run.name for run in group)} are no repeats: {failed}"
+        f"{', '.join(run.name for run in group)} cannot be compared as repeats: {failed}"
         for group in _groups(dataset)
         if isinstance(failed := _repeated(group), NotRepeatsError)
     ]

@@ -7,7 +7,7 @@ import pytest
 from scipy.signal import butter, lfilter, sosfiltfilt
 from seeds import seed_of
 
-from dashpot.data.alignment import lag_between, shifted_by
+from dashpot.data.alignment import NotRepeatsError, lag_between, shifted_by
 from dashpot.data.noise import (
     UNKNOWN,
     NoiseFloor,
@@ -18,7 +18,7 @@ from dashpot.data.noise import (
     pool_noise,
 )
 from dashpot.data.order_tracking import follow, harmonics_of
-from dashpot.data.repeats import NotRepeatsError, compare_repeats
+from dashpot.data.repeats import compare_repeats
 from dashpot.data.white_noise import white_noise
 
 SAMPLE_TIME = 1e-3

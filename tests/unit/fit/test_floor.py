@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from seeds import seed_of
@@ -34,8 +36,22 @@ def test_declared_repeats_of_another_amplitude_are_told_of_and_left_out():
     rng = np.random.default_rng(1)
     dataset = Dataset("wrong", (run("a", 1e-3, rng), run("b", 2e-3, rng, "a"), run("c", 3e-3, rng)))
     (told,) = false_repeats(dataset)
-    assert "a, b are no repeats" in told and "repeats:" in told
+    assert "a, b cannot be compared as repeats" in told and "repeats:" in told
     assert noise_floor(dataset).source == "residual"
+
+
+def test_repeats_that_are_too_short_to_be_compared_are_told_of_and_left_out():
+    rng = np.random.default_rng(2)
+    short = [replace(one, **cut(one, 66)) for one in (run("a", 1e-3, rng), run("b", 1e-3, rng, "a"))]
+    dataset = Dataset("short", (*short, run("c", 1e-3, rng)))
+    (told,) = false_repeats(dataset)
+    assert "a, b cannot be compared as repeats" in told and "66 samples" in told and "measure longer" in told
+    assert noise_floor(dataset).source == "residual"
+
+
+def cut(run: Run, samples: int) -> dict[str, object]:
+    """The first samples of a run."""
+    return {"time": run.time[:samples], "channels": {key: each[:samples] for key, each in run.channels.items()}}
 
 
 def test_repeats_of_a_prescribed_force_tell_no_noise_of_it():

@@ -8,10 +8,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from dashpot.data.alignment import NotRepeatsError
 from dashpot.data.importing.counters import without_counters
 from dashpot.data.importing.finding import NEEDED, Finding, Level
 from dashpot.data.importing.names import differ
-from dashpot.data.repeats import NotRepeatsError, compare_repeats
+from dashpot.data.repeats import compare_repeats
 
 # how much of the force two runs may not share: without a hint, and where their names say that one repeats the other
 _ALIKE, _ALIKE_BY_NAME = 0.05, 0.3
@@ -96,7 +97,7 @@ def _difference(first: Finding, second: Finding) -> float:
     runs = [(finding.signals["displacement"], finding.signals["force"]) for finding in (first, second)]
     try:
         departure = compare_repeats(runs, first.timing.step or 1.0).departure
-    except (NotRepeatsError, ValueError):
+    except NotRepeatsError:
         return float("inf")
     # a force that a test prescribes may come again to the last digit over a motion of its own: it is no copy
     smallest = np.finfo(float).tiny
