@@ -25,7 +25,7 @@ KNEES = (0.02, 0.06, 0.2, 0.6)  # of the largest speed
 RATIOS = (0.5, 1.0, 2.0)  # damping in compression over that in rebound
 TIMES = (0.02, 0.1, 0.5)  # of 1/w at the end of the band: the lag of the force
 SHARP = 4.0  # how sharply a blow-off opens
-KNEE, SHARPEST = (1e-4, 1e3), 1e3  # m/s and s/m: the ranges of the elements
+KNEE, SHARPEST = (1e-8, 1e3), 1e8  # m/s and s/m: the ranges of the elements
 SERIES: dict[str, Pair] = {"stiffness": (1.0, 1e10)}
 OPENS = 0.015  # of the largest speed, at least: a force that is flat beyond a lower knee is dry friction's
 

@@ -25,13 +25,13 @@ class AsymmetricDamper(Element):
 
     picture = Symbol.DASHPOT
 
-    compression = Parameter("N*s/m", "damping in compression", bounds=(1e-2, 1e7), symbol="d_c")
-    rebound = Parameter("N*s/m", "damping in rebound", bounds=(1e-2, 1e7), symbol="d_r")
+    compression = Parameter("N*s/m", "damping in compression", bounds=(1e-4, 1e11), symbol="d_c")
+    rebound = Parameter("N*s/m", "damping in rebound", bounds=(1e-4, 1e11), symbol="d_r")
     compression_digression = Parameter(
-        "s/m", "one over the knee velocity in compression", bounds=(0.0, 1e3), scale="linear", symbol="g_c", default=0.0
+        "s/m", "one over the knee velocity in compression", bounds=(0.0, 1e8), scale="linear", symbol="g_c", default=0.0
     )
     rebound_digression = Parameter(
-        "s/m", "one over the knee velocity in rebound", bounds=(0.0, 1e3), scale="linear", symbol="g_r", default=0.0
+        "s/m", "one over the knee velocity in rebound", bounds=(0.0, 1e8), scale="linear", symbol="g_r", default=0.0
     )
     compression_exponent = Parameter(
         "1", "power of the velocity in compression", bounds=(0.05, 4.0), scale="linear", symbol="n_c", default=1.0
@@ -40,7 +40,7 @@ class AsymmetricDamper(Element):
         "1", "power of the velocity in rebound", bounds=(0.05, 4.0), scale="linear", symbol="n_r", default=1.0
     )
     reference = Parameter(
-        "m/s", "velocity at which the dampings are given", bounds=(1e-8, 1e2), symbol="v_r", default=0.1
+        "m/s", "velocity at which the dampings are given", bounds=(1e-8, 1e3), symbol="v_r", default=0.1
     )
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:

@@ -21,8 +21,8 @@ class Backlash(Element):
     source = "Brokate and Sprekels, Hysteresis and Phase Transitions (1996), for the play operator"
     passive = False
 
-    stiffness = Parameter("N/m", "stiffness behind the play", bounds=(1.0, 1e9), symbol="k")
-    gap = Parameter("m", "play to either side", bounds=(1e-7, 1.0), symbol="g")
+    stiffness = Parameter("N/m", "stiffness behind the play", bounds=(1e-3, 1e12), symbol="k")
+    gap = Parameter("m", "play to either side", bounds=(1e-8, 100.0), symbol="g")
     follower = State("m", "deflection behind the play")
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:

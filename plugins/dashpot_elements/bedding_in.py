@@ -21,11 +21,11 @@ class BeddingIn(Element):
     picture = Symbol.SPRING
     source = "Mullins, Rubber Chemistry and Technology 42 (1969) 339, for the effect"
 
-    stiffness = Parameter("N/m", "stiffness of the fresh specimen", bounds=(1.0, 1e9), symbol="k")
-    depth = Parameter("m", "reach that halves the stiffness, its exponent being 1", bounds=(1e-6, 10.0), symbol="x_h")
+    stiffness = Parameter("N/m", "stiffness of the fresh specimen", bounds=(1e-3, 1e12), symbol="k")
+    depth = Parameter("m", "reach that halves the stiffness, its exponent being 1", bounds=(1e-8, 100.0), symbol="x_h")
     exponent = Parameter("1", "steepness of the loss", bounds=(0.1, 20.0), symbol="n", default=1.0)
     before = Parameter(
-        "m", "largest deflection before the record", bounds=(0.0, 10.0), scale="linear", symbol="x_0", default=0.0
+        "m", "largest deflection before the record", bounds=(0.0, 100.0), scale="linear", symbol="x_0", default=0.0
     )
     reach = State("m", "largest deflection to either side so far")
 

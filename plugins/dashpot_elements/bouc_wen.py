@@ -28,8 +28,8 @@ class BoucWen(Element):
     source = "Wen, J. Eng. Mech. Div. ASCE 102 (1976) 249"
     exact = False
 
-    stiffness = Parameter("N/m", "slope at zero force", bounds=(1.0, 1e9), symbol="k")
-    limit = Parameter("N", "largest force", bounds=(1e-3, 1e6), symbol="F_y")
+    stiffness = Parameter("N/m", "slope at zero force", bounds=(1e-3, 1e12), symbol="k")
+    limit = Parameter("N", "largest force", bounds=(1e-6, 1e9), symbol="F_y")
     shape = Parameter("1", "beta/(beta + gamma)", bounds=(0.5, 1.0), scale="linear", symbol="b", default=0.5)
     exponent = Parameter("1", "sharpness of the knee", bounds=(1.0, 10.0), scale="linear", symbol="n", default=1.0)
     force = State("N", "hysteretic force")

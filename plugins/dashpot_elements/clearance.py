@@ -22,9 +22,9 @@ class Clearance(Element):
     picture = Series(Symbol.PLAY, Symbol.SPRING)
     passive = False
 
-    stiffness = Parameter("N/m", "stiffness where the play is used up", bounds=(1.0, 1e12), symbol="k")
-    gap = Parameter("m", "play to either side", bounds=(1e-7, 1.0), symbol="g")
-    place = Parameter("m", "middle of the play", bounds=(-1.0, 1.0), scale="linear", symbol="x_0", default=0.0)
+    stiffness = Parameter("N/m", "stiffness where the play is used up", bounds=(1e-3, 1e12), symbol="k")
+    gap = Parameter("m", "play to either side", bounds=(1e-8, 100.0), symbol="g")
+    place = Parameter("m", "middle of the play", bounds=(-100.0, 100.0), scale="linear", symbol="x_0", default=0.0)
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
         """The law at the end of the step."""

@@ -31,10 +31,10 @@ class CompliantDamper(Element):
     source = "Hosea and Shampine, Applied Numerical Mathematics 20 (1996) 21, for TR-BDF2"
     exact = False
 
-    stiffness = Parameter("N/m", "stiffness in series", bounds=(1.0, 1e10), symbol="k")
-    force = Parameter("N", "force at the reference velocity", bounds=(1e-3, 1e6), symbol="F_r")
+    stiffness = Parameter("N/m", "stiffness in series", bounds=(1e-3, 1e12), symbol="k")
+    force = Parameter("N", "force at the reference velocity", bounds=(1e-6, 1e9), symbol="F_r")
     exponent = Parameter("1", "power of the velocity", bounds=(0.05, 4.0), scale="linear", symbol="n", default=1.0)
-    reference = Parameter("m/s", "velocity at which the force is given", bounds=(1e-8, 1e2), symbol="v_r", default=0.1)
+    reference = Parameter("m/s", "velocity at which the force is given", bounds=(1e-8, 1e3), symbol="v_r", default=0.1)
     load, speed = memory()
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:

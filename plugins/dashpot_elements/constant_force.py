@@ -18,7 +18,7 @@ class ConstantForce(Element):
     picture = Symbol.BOX
     passive = False
 
-    force = Parameter("N", "the force", bounds=(-1e7, 1e7), scale="linear", symbol="F")
+    force = Parameter("N", "the force", bounds=(-1e9, 1e9), scale="linear", symbol="F")
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
         """The same at every place; it has to depend on the motion in form only."""

@@ -22,7 +22,7 @@ class Contact(Element):
         ("force", "N"),
         ("deflection", "m"),
         "force over deflection, or its constant slope",
-        bounds=(1.0, 1e12),
+        bounds=(1e-3, 1e12),
         symbol="k",
     )
 

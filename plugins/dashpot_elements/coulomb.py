@@ -19,8 +19,8 @@ class Coulomb(Element):
     picture = Symbol.SLIDER
     source = "Andersson, Soderberg and Bjorklund, Tribology International 40 (2007) 580"
 
-    limit = Parameter("N", "sliding force", bounds=(1e-3, 1e6), symbol="F_c")
-    creep_velocity = Parameter("m/s", "velocity over which the force changes sides", bounds=(1e-9, 10.0), symbol="v_c")
+    limit = Parameter("N", "sliding force", bounds=(1e-6, 1e9), symbol="F_c")
+    creep_velocity = Parameter("m/s", "velocity over which the force changes sides", bounds=(1e-10, 1e3), symbol="v_c")
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
         """The law at the velocity at the end of the step."""

@@ -25,7 +25,7 @@ class Creep(Element):
 
     picture = Series(Symbol.SPRING, Symbol.DASHPOT)
 
-    stiffness = Parameter("N/m", "force lost per decade of time and deflection", bounds=(1e-2, 1e9), symbol="B")
+    stiffness = Parameter("N/m", "force lost per decade of time and deflection", bounds=(1e-3, 1e12), symbol="B")
     shortest = Parameter("s", "when the fall begins", bounds=(1e-3, 1e5), symbol="T_1", default=1.0)
     decades = Parameter("1", "how long the fall lasts", bounds=(0.5, 6.0), scale="linear", symbol="N", default=3.0)
     crept_1, crept_2, crept_3, crept_4, crept_5, crept_6, crept_7, crept_8, crept_9 = (

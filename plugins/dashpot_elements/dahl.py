@@ -22,8 +22,8 @@ class Dahl(Element):
     picture = Symbol.SLIDER
     source = "Dahl, AIAA J. 14 (1976) 1675"
 
-    stiffness = Parameter("N/m", "slope of the unloaded slider", bounds=(1.0, 1e9), symbol="sigma")
-    limit = Parameter("N", "sliding force", bounds=(1e-3, 1e6), symbol="F_c")
+    stiffness = Parameter("N/m", "slope of the unloaded slider", bounds=(1e-3, 1e12), symbol="sigma")
+    limit = Parameter("N", "sliding force", bounds=(1e-6, 1e9), symbol="F_c")
     exponent = Parameter(
         "1", "shape of the approach to sliding", bounds=(0.0, 4.0), scale="linear", symbol="i", default=1.0
     )

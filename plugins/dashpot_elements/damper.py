@@ -20,7 +20,7 @@ class Damper(Element):
         ("force", "N"),
         ("velocity", "m/s"),
         "force over velocity, or its constant slope",
-        bounds=(1e-2, 1e7),
+        bounds=(1e-4, 1e11),
         symbol="d",
         rising=True,
     )

@@ -21,9 +21,9 @@ class DirectionalCoulomb(Element):
     picture = Symbol.SLIDER
     source = "Andersson, Soderberg and Bjorklund, Tribology International 40 (2007) 580, for the law in each direction"
 
-    compression = Parameter("N", "sliding force in compression", bounds=(1e-3, 1e6), symbol="F_c")
-    rebound = Parameter("N", "sliding force in rebound", bounds=(1e-3, 1e6), symbol="F_r")
-    creep_velocity = Parameter("m/s", "velocity over which the force changes sides", bounds=(1e-9, 10.0), symbol="v_c")
+    compression = Parameter("N", "sliding force in compression", bounds=(1e-6, 1e9), symbol="F_c")
+    rebound = Parameter("N", "sliding force in rebound", bounds=(1e-6, 1e9), symbol="F_r")
+    creep_velocity = Parameter("m/s", "velocity over which the force changes sides", bounds=(1e-10, 1e3), symbol="v_c")
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
         """The law at the velocity at the end of the step."""

@@ -22,9 +22,9 @@ class DirectionalFriction(Element):
     picture = Symbol.SLIDER
     source = "Dahl, AIAA J. 14 (1976) 1675, for the law in each direction"
 
-    stiffness = Parameter("N/m", "slope of the unloaded slider", bounds=(1.0, 1e9), symbol="sigma")
-    compression = Parameter("N", "sliding force in compression", bounds=(1e-3, 1e6), symbol="F_c")
-    rebound = Parameter("N", "sliding force in rebound", bounds=(1e-3, 1e6), symbol="F_r")
+    stiffness = Parameter("N/m", "slope of the unloaded slider", bounds=(1e-3, 1e12), symbol="sigma")
+    compression = Parameter("N", "sliding force in compression", bounds=(1e-6, 1e9), symbol="F_c")
+    rebound = Parameter("N", "sliding force in rebound", bounds=(1e-6, 1e9), symbol="F_r")
     exponent = Parameter(
         "1", "shape of the approach to sliding", bounds=(0.0, 4.0), scale="linear", symbol="i", default=1.0
     )

@@ -23,7 +23,7 @@ class EndStop(Element):
     picture = Series(Symbol.GAP, Symbol.SPRING)
     passive = False
 
-    stiffness = Parameter("N/m", "force over depth at the reference depth", bounds=(1.0, 1e12), symbol="k")
+    stiffness = Parameter("N/m", "force over depth at the reference depth", bounds=(1e-3, 1e12), symbol="k")
     compression = Parameter(
         "m",
         "deflection at which the compression stop is touched",
@@ -40,7 +40,9 @@ class EndStop(Element):
         default=-OUT_OF_REACH,
     )
     exponent = Parameter("1", "power of the depth", bounds=(1.0, 5.0), scale="linear", symbol="n", default=1.0)
-    reference = Parameter("m", "depth at which the stiffness is given", bounds=(1e-6, 10.0), symbol="x_0", default=1e-3)
+    reference = Parameter(
+        "m", "depth at which the stiffness is given", bounds=(1e-8, 100.0), symbol="x_0", default=1e-3
+    )
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
         """Both buffers at the end of the step."""

@@ -19,7 +19,7 @@ class FadingDamper(Element):
 
     picture = Symbol.DASHPOT
 
-    damping = Parameter("N*s/m", "damping that is lost in the end", bounds=(1e-2, 1e7), symbol="d")
+    damping = Parameter("N*s/m", "damping that is lost in the end", bounds=(1e-4, 1e11), symbol="d")
     time = Parameter("s", "time constant of the loss", bounds=(1e-2, 1e5), symbol="T")
     lost = State("1", "share of the damping that is lost")
 

@@ -20,7 +20,7 @@ class FadingSpring(Element):
     picture = Symbol.SPRING
     passive = False
 
-    stiffness = Parameter("N/m", "stiffness that is lost in the end", bounds=(1.0, 1e9), symbol="k")
+    stiffness = Parameter("N/m", "stiffness that is lost in the end", bounds=(1e-3, 1e12), symbol="k")
     time = Parameter("s", "time constant of the loss", bounds=(1e-2, 1e5), symbol="T")
     lost = State("1", "share of the stiffness that is lost")
 

@@ -25,8 +25,8 @@ class GasSpring(Element):
     picture = Symbol.SPRING
     passive = False
 
-    force = Parameter("N", "force at zero deflection", bounds=(1e-3, 1e7), symbol="F_0")
-    length = Parameter("m", "length of the column of gas at zero deflection", bounds=(1e-6, 100.0), symbol="l")
+    force = Parameter("N", "force at zero deflection", bounds=(1e-6, 1e9), symbol="F_0")
+    length = Parameter("m", "length of the column of gas at zero deflection", bounds=(1e-6, 1e3), symbol="l")
     exponent = Parameter("1", "polytropic exponent", bounds=(0.9, 2.0), scale="linear", symbol="n", default=1.3)
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:

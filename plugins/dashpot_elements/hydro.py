@@ -25,14 +25,14 @@ class Hydro(Element):
     source = "Strang, SIAM J. Numer. Anal. 5 (1968) 506, for the splitting"
     exact = False
 
-    fluid_mass = Parameter("kg", "mass of the fluid in the track, felt at the piston", bounds=(1e-3, 1e4), symbol="m")
-    stiffness = Parameter("N/m", "stiffness of the bulging walls", bounds=(1.0, 1e9), symbol="k_b")
-    damping = Parameter("N*s/m", "linear damping in the track", bounds=(1e-2, 1e7), symbol="d_1")
+    fluid_mass = Parameter("kg", "mass of the fluid in the track, felt at the piston", bounds=(1e-6, 1e12), symbol="m")
+    stiffness = Parameter("N/m", "stiffness of the bulging walls", bounds=(1e-3, 1e12), symbol="k_b")
+    damping = Parameter("N*s/m", "linear damping in the track", bounds=(1e-4, 1e11), symbol="d_1")
     quadratic_damping = Parameter(
-        "N*s^2/m^2", "turbulent damping in the track", bounds=(0.0, 1e8), scale="linear", symbol="d_2", default=0.0
+        "N*s^2/m^2", "turbulent damping in the track", bounds=(0.0, 1e13), scale="linear", symbol="d_2", default=0.0
     )
     compensation_stiffness = Parameter(
-        "N/m", "stiffness of the compensation chamber", bounds=(0.0, 1e9), scale="linear", symbol="k_2", default=0.0
+        "N/m", "stiffness of the compensation chamber", bounds=(0.0, 1e12), scale="linear", symbol="k_2", default=0.0
     )
     bulge = State("m", "bulge of the walls beyond the static one")
     flow = State("m/s", "velocity of the fluid in the track")

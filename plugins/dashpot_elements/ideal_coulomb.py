@@ -24,7 +24,7 @@ class IdealCoulomb(Element):
     picture = Symbol.SLIDER
     source = "Alart and Curnier, Comput. Methods Appl. Mech. Eng. 92 (1991) 353"
 
-    limit = Parameter("N", "sliding force", bounds=(1e-3, 1e6), symbol="F_c")
+    limit = Parameter("N", "sliding force", bounds=(1e-6, 1e9), symbol="F_c")
     force = State("N", "force in the branch")
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:

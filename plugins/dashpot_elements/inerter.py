@@ -17,7 +17,7 @@ class Inerter(Element):
     picture = Symbol.INERTER
     passive = False  # a negative inertance stands for a mass that was subtracted from the measurement
 
-    inertance = Parameter("kg", "moving mass", bounds=(-50.0, 50.0), scale="linear", symbol="b")
+    inertance = Parameter("kg", "moving mass", bounds=(-1e12, 1e12), scale="linear", symbol="b")
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
         """The law at the acceleration at the end of the step."""

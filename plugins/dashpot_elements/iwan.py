@@ -25,9 +25,9 @@ class Iwan(Element):
     picture = Parallel(Series(Symbol.SPRING, Symbol.SLIDER), Series(Symbol.SPRING, Symbol.SLIDER))
     source = "Iwan, J. Applied Mechanics 33 (1966) 893"
 
-    stiffness = Parameter("N/m", "stiffness at very small amplitude", bounds=(1.0, 1e9), symbol="k")
-    shortest = Parameter("m", "yield travel of the first slider", bounds=(1e-8, 1.0), symbol="t_1")
-    longest = Parameter("m", "yield travel of the last slider", bounds=(1e-7, 10.0), symbol="t_8")
+    stiffness = Parameter("N/m", "stiffness at very small amplitude", bounds=(1e-3, 1e12), symbol="k")
+    shortest = Parameter("m", "yield travel of the first slider", bounds=(1e-8, 100.0), symbol="t_1")
+    longest = Parameter("m", "yield travel of the last slider", bounds=(1e-8, 100.0), symbol="t_8")
     slope = Parameter(
         "1", "how the stiffness falls with the travel", bounds=(-2.0, 2.0), scale="linear", symbol="s", default=0.0
     )

@@ -25,8 +25,8 @@ class Kraus(Element):
     picture = Parallel(Series(Symbol.SPRING, Symbol.SLIDER), Series(Symbol.SPRING, Symbol.SLIDER))
     source = "Kraus, J. Applied Polymer Science: Applied Polymer Symposium 39 (1984) 75; exponent = 2 m"
 
-    stiffness = Parameter("N/m", "stiffness at very small amplitude", bounds=(1.0, 1e9), symbol="k")
-    travel = Parameter("m", "yield travel of the middle of all sliders", bounds=(1e-7, 1.0), symbol="t_c")
+    stiffness = Parameter("N/m", "stiffness at very small amplitude", bounds=(1e-3, 1e12), symbol="k")
+    travel = Parameter("m", "yield travel of the middle of all sliders", bounds=(1e-8, 100.0), symbol="t_c")
     exponent = Parameter(
         "1", "how suddenly the sliders yield around it", bounds=(0.3, 4.0), scale="linear", symbol="n", default=1.0
     )

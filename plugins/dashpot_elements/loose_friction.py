@@ -21,9 +21,9 @@ class LooseFriction(Element):
     picture = Series(Symbol.PLAY, Symbol.SPRING, Symbol.SLIDER)
     source = "Brokate and Sprekels, Hysteresis and Phase Transitions (1996), for the stop operator"
 
-    limit = Parameter("N", "sliding force", bounds=(1e-3, 1e7), symbol="F_c")
-    stiffness = Parameter("N/m", "stiffness between play and slider", bounds=(1.0, 1e10), symbol="k")
-    gap = Parameter("m", "play to either side", bounds=(1e-8, 1.0), symbol="g")
+    limit = Parameter("N", "sliding force", bounds=(1e-6, 1e9), symbol="F_c")
+    stiffness = Parameter("N/m", "stiffness between play and slider", bounds=(1e-3, 1e12), symbol="k")
+    gap = Parameter("m", "play to either side", bounds=(1e-8, 100.0), symbol="g")
     stretch = State("m", "stretch of play and spring together")
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:

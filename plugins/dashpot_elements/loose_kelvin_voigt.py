@@ -23,10 +23,10 @@ class LooseKelvinVoigt(Element):
     passive = False
     exact = False
 
-    stiffness = Parameter("N/m", "stiffness behind the play", bounds=(1.0, 1e10), symbol="k")
-    damping = Parameter("N*s/m", "damping beside it", bounds=(1e-3, 1e8), symbol="d")
-    gap = Parameter("m", "play to either side", bounds=(1e-8, 1.0), symbol="g")
-    place = Parameter("m", "middle of the play", bounds=(-1.0, 1.0), scale="linear", symbol="x_0", default=0.0)
+    stiffness = Parameter("N/m", "stiffness behind the play", bounds=(1e-3, 1e12), symbol="k")
+    damping = Parameter("N*s/m", "damping beside it", bounds=(1e-4, 1e11), symbol="d")
+    gap = Parameter("m", "play to either side", bounds=(1e-8, 100.0), symbol="g")
+    place = Parameter("m", "middle of the play", bounds=(-100.0, 100.0), scale="linear", symbol="x_0", default=0.0)
     stretch = State("m", "deflection behind the play")
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:

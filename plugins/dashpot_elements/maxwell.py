@@ -20,7 +20,7 @@ class Maxwell(Element):
 
     picture = Series(Symbol.SPRING, Symbol.DASHPOT)
 
-    stiffness = Parameter("N/m", "stiffness of the spring", bounds=(1.0, 1e9), symbol="k")
+    stiffness = Parameter("N/m", "stiffness of the spring", bounds=(1e-3, 1e12), symbol="k")
     relaxation_time = Parameter("s", "damping over stiffness", bounds=(1e-5, 1e4), symbol="T")
     force = State("N", "force in the branch")
 

@@ -22,8 +22,8 @@ class Mullins(Element):
     picture = Symbol.SPRING
     source = "Dorfmann and Ogden, Int. J. Solids and Structures 41 (2004) 1855, with the energy of a spring"
 
-    stiffness = Parameter("N/m", "stiffness of the fresh specimen", bounds=(1.0, 1e9), symbol="k")
-    depth = Parameter("m", "root of the difference of squares that leaves 24 %", bounds=(1e-6, 10.0), symbol="x_m")
+    stiffness = Parameter("N/m", "stiffness of the fresh specimen", bounds=(1e-3, 1e12), symbol="k")
+    depth = Parameter("m", "root of the difference of squares that leaves 24 %", bounds=(1e-8, 100.0), symbol="x_m")
     widening = Parameter(
         "1",
         "share of the largest energy so far that is added",
@@ -33,7 +33,7 @@ class Mullins(Element):
         default=0.0,
     )
     before = Parameter(
-        "m", "largest deflection before the record", bounds=(0.0, 10.0), scale="linear", symbol="x_0", default=0.0
+        "m", "largest deflection before the record", bounds=(0.0, 100.0), scale="linear", symbol="x_0", default=0.0
     )
     reach = State("m", "largest deflection to either side so far")
 

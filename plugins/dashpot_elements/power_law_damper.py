@@ -19,9 +19,9 @@ class PowerLawDamper(Element):
 
     picture = Symbol.DASHPOT
 
-    force = Parameter("N", "force at the reference velocity", bounds=(1e-3, 1e6), symbol="F_r")
+    force = Parameter("N", "force at the reference velocity", bounds=(1e-6, 1e9), symbol="F_r")
     exponent = Parameter("1", "power of the velocity", bounds=(0.05, 4.0), scale="linear", symbol="n")
-    reference = Parameter("m/s", "velocity at which the force is given", bounds=(1e-8, 1e2), symbol="v_r", default=0.1)
+    reference = Parameter("m/s", "velocity at which the force is given", bounds=(1e-8, 1e3), symbol="v_r", default=0.1)
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
         """The law at the velocity at the end of the step."""

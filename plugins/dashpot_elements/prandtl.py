@@ -27,8 +27,8 @@ class Prandtl(Element):
     picture = Series(Symbol.SPRING, Symbol.SLIDER)
     source = "Corless and Jeffrey, The Wright omega function (2002), for the solution"
 
-    stiffness = Parameter("N/m", "stiffness of the spring", bounds=(1.0, 1e9), symbol="k_p")
-    limit = Parameter("N", "sliding force", bounds=(1e-3, 1e6), symbol="F_c")
+    stiffness = Parameter("N/m", "stiffness of the spring", bounds=(1e-3, 1e12), symbol="k_p")
+    limit = Parameter("N", "sliding force", bounds=(1e-6, 1e9), symbol="F_c")
     sharpness = Parameter(
         "1", "stiffness of the slider over that of the spring", bounds=(0.1, 1e3), symbol="s", default=10.0
     )

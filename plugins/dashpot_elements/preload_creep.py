@@ -20,7 +20,7 @@ class PreloadCreep(Element):
     picture = Series(Symbol.SPRING, Symbol.DASHPOT)
     passive = False
 
-    stiffness = Parameter("N/m", "force lost per decade of time and deflection", bounds=(1e-2, 1e9), symbol="B")
+    stiffness = Parameter("N/m", "force lost per decade of time and deflection", bounds=(1e-3, 1e12), symbol="B")
     shortest = Parameter("s", "when the fall begins", bounds=(1e-3, 1e5), symbol="T_1", default=1.0)
     since = State("s", "time since the record began")
     preload = State("m", "deflection with which it began")

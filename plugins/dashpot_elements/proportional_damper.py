@@ -22,7 +22,7 @@ class ProportionalDamper(Element):
         ("force", "N"),
         ("deflection", "m"),
         "force over deflection of the spring beside it, or its slope",
-        bounds=(1.0, 1e9),
+        bounds=(1e-3, 1e12),
         symbol="f",
         rising=True,
     )

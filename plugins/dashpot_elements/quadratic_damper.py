@@ -15,7 +15,7 @@ class QuadraticDamper(Element):
 
     picture = Symbol.DASHPOT
 
-    damping = Parameter("N*s^2/m^2", "force at 1 m/s", bounds=(1e-2, 1e8), symbol="d_2")
+    damping = Parameter("N*s^2/m^2", "force at 1 m/s", bounds=(1e-4, 1e13), symbol="d_2")
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
         """The law at the velocity at the end of the step."""

@@ -25,13 +25,13 @@ class RattlingMass(Element):
     source = "Hunt and Crossley, J. Applied Mechanics 42 (1975) 440, for the contact"
     exact = False
 
-    mass = Parameter("kg", "mass that flies", bounds=(1e-4, 1e4), symbol="m")
-    stiffness = Parameter("N/m", "stiffness of the contact", bounds=(1.0, 1e9), symbol="k")
-    gap = Parameter("m", "play to either side", bounds=(0.0, 1.0), scale="linear", symbol="g")
+    mass = Parameter("kg", "mass that flies", bounds=(1e-6, 1e12), symbol="m")
+    stiffness = Parameter("N/m", "stiffness of the contact", bounds=(1e-3, 1e12), symbol="k")
+    gap = Parameter("m", "play to either side", bounds=(0.0, 100.0), scale="linear", symbol="g")
     loss = Parameter(
         "s/m",
         "damping of the contact over its stiffness and depth",
-        bounds=(0.0, 1e3),
+        bounds=(0.0, 1e8),
         scale="linear",
         symbol="c",
         default=0.0,

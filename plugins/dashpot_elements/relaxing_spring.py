@@ -31,7 +31,7 @@ class RelaxingSpring(Element):
         ("force", "N"),
         ("deflection", "m"),
         "force over deflection of a sudden step, or its slope",
-        bounds=(1.0, 1e9),
+        bounds=(1e-3, 1e12),
         symbol="f",
         rising=True,
     )

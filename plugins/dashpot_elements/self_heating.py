@@ -37,10 +37,12 @@ class SelfHeating(Element):
     passive = False
 
     stiffness = Parameter(
-        "N/m", "stiffness of the cold specimen", bounds=(0.0, 1e9), scale="linear", symbol="k", default=0.0
+        "N/m", "stiffness of the cold specimen", bounds=(0.0, 1e12), scale="linear", symbol="k", default=0.0
     )
-    damping = Parameter("N*s/m", "damping of the cold specimen", bounds=(1e-2, 1e7), symbol="d")
-    power = Parameter("W", "dissipated power at which the damping is halved in the end", bounds=(1e-6, 1e7), symbol="P")
+    damping = Parameter("N*s/m", "damping of the cold specimen", bounds=(1e-4, 1e11), symbol="d")
+    power = Parameter(
+        "W", "dissipated power at which the damping is halved in the end", bounds=(1e-9, 1e12), symbol="P"
+    )
     time = Parameter("s", "time constant of warming and cooling", bounds=(1e-2, 1e5), symbol="T")
     ratio = Parameter(
         "1",

@@ -25,12 +25,12 @@ class SideLoadFriction(Element):
     picture: ClassVar[Picture] = Symbol.SLIDER
     source = "Dahl, AIAA J. 14 (1976) 1675, for the slider"
 
-    stiffness = Parameter("N/m", "slope of the unloaded slider", bounds=(1.0, 1e9), symbol="sigma")
-    limit = Parameter("N", "sliding force in the middle", bounds=(1e-3, 1e6), symbol="F_c")
+    stiffness = Parameter("N/m", "slope of the unloaded slider", bounds=(1e-3, 1e12), symbol="sigma")
+    limit = Parameter("N", "sliding force in the middle", bounds=(1e-6, 1e9), symbol="F_c")
     growth = Parameter(
         "N/m",
         "rise of the sliding force with the distance from the middle",
-        bounds=(0.0, 1e9),
+        bounds=(0.0, 1e12),
         scale="linear",
         symbol="g",
     )

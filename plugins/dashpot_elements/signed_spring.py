@@ -19,7 +19,7 @@ class SignedSpring(Element):
     picture = Symbol.SPRING
     passive = False
 
-    stiffness = Parameter("N/m", "stiffness, of either sign", bounds=(-1e9, 1e9), scale="linear", symbol="k")
+    stiffness = Parameter("N/m", "stiffness, of either sign", bounds=(-1e12, 1e12), scale="linear", symbol="k")
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
         """In proportion to the deflection at the end of the step."""

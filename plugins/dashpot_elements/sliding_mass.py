@@ -24,11 +24,11 @@ class SlidingMass(Element):
     picture = Series(Parallel(Series(Symbol.SPRING, Symbol.SLIDER), Symbol.DASHPOT), Symbol.INERTER)
     exact = False
 
-    mass = Parameter("kg", "mass that is carried along", bounds=(1e-4, 1e4), symbol="m")
-    stiffness = Parameter("N/m", "stiffness of the sticking contact", bounds=(1.0, 1e9), symbol="k")
-    limit = Parameter("N", "sliding force", bounds=(1e-3, 1e6), symbol="F_c")
+    mass = Parameter("kg", "mass that is carried along", bounds=(1e-6, 1e12), symbol="m")
+    stiffness = Parameter("N/m", "stiffness of the sticking contact", bounds=(1e-3, 1e12), symbol="k")
+    limit = Parameter("N", "sliding force", bounds=(1e-6, 1e9), symbol="F_c")
     damping = Parameter(
-        "N*s/m", "damping beside the slider", bounds=(0.0, 1e7), scale="linear", symbol="d", default=0.0
+        "N*s/m", "damping beside the slider", bounds=(0.0, 1e11), scale="linear", symbol="d", default=0.0
     )
     stretch = State("m", "deflection of the spring")
     speed = State("m/s", "velocity of the mass")

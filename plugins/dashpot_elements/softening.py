@@ -27,8 +27,8 @@ class Softening(Element):
     exact = False
     passive = False
 
-    stiffness = Parameter("N/m", "stiffness of the cold specimen", bounds=(1.0, 1e9), symbol="k")
-    speed = Parameter("m/s", "r.m.s. velocity that halves the stiffness in the end", bounds=(1e-5, 100.0), symbol="v_h")
+    stiffness = Parameter("N/m", "stiffness of the cold specimen", bounds=(1e-3, 1e12), symbol="k")
+    speed = Parameter("m/s", "r.m.s. velocity that halves the stiffness in the end", bounds=(1e-8, 1e3), symbol="v_h")
     time = Parameter("s", "time constant of warming and cooling", bounds=(1e-2, 1e5), symbol="T")
     exponent = Parameter("1", "how the stiffness falls with warmth", bounds=(0.3, 10.0), symbol="p", default=1.0)
     before = Parameter(

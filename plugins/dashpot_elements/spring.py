@@ -21,7 +21,7 @@ class Spring(Element):
         ("force", "N"),
         ("deflection", "m"),
         "force over deflection, or its constant slope",
-        bounds=(1.0, 1e9),
+        bounds=(1e-3, 1e12),
         symbol="k",
     )
 

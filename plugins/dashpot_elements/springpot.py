@@ -30,7 +30,7 @@ class Springpot(Element):
     picture = Symbol.FRACTIONAL
     source = "Schmidt and Gaul, Nonlinear Dynamics 29 (2002) 37, for the law"
 
-    stiffness = Parameter("N/m", "dynamic stiffness at the reference frequency", bounds=(1.0, 1e9), symbol="k_a")
+    stiffness = Parameter("N/m", "dynamic stiffness at the reference frequency", bounds=(1e-3, 1e12), symbol="k_a")
     order = Parameter("1", "0 of a spring, 1 of a dashpot", bounds=(0.01, 0.99), scale="linear", symbol="a")
     reference = Parameter(
         "Hz", "frequency at which the stiffness is given", bounds=(1e-4, 1e5), symbol="f_r", default=1.0

@@ -24,9 +24,9 @@ class StiffeningMaxwell(Element):
     source = "Hosea and Shampine, Applied Numerical Mathematics 20 (1996) 21, for TR-BDF2"
     exact = False
 
-    stiffness = Parameter("N/m", "stiffness of the spring for small forces", bounds=(1.0, 1e9), symbol="k")
+    stiffness = Parameter("N/m", "stiffness of the spring for small forces", bounds=(1e-3, 1e12), symbol="k")
     relaxation_time = Parameter("s", "damping over stiffness", bounds=(1e-5, 1e4), symbol="T")
-    travel = Parameter("m", "deflection at which the spring is blocked", bounds=(1e-6, 10.0), symbol="s")
+    travel = Parameter("m", "deflection at which the spring is blocked", bounds=(1e-8, 100.0), symbol="s")
     force = State("N", "force in the branch")
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:

@@ -31,10 +31,10 @@ class Stribeck(Element):
     source = "Canudas de Wit et al., IEEE Trans. Automatic Control 40 (1995) 419"
     exact = False
 
-    stiffness = Parameter("N/m", "slope of the unloaded slider", bounds=(1.0, 1e9), symbol="sigma")
-    limit = Parameter("N", "sliding force at high speed", bounds=(1e-3, 1e6), symbol="F_c")
-    breakaway = Parameter("N", "sliding force at very low speed", bounds=(1e-3, 1e6), symbol="F_s")
-    stribeck_velocity = Parameter("m/s", "speed over which the force falls", bounds=(1e-5, 10.0), symbol="v_s")
+    stiffness = Parameter("N/m", "slope of the unloaded slider", bounds=(1e-3, 1e12), symbol="sigma")
+    limit = Parameter("N", "sliding force at high speed", bounds=(1e-6, 1e9), symbol="F_c")
+    breakaway = Parameter("N", "sliding force at very low speed", bounds=(1e-6, 1e9), symbol="F_s")
+    stribeck_velocity = Parameter("m/s", "speed over which the force falls", bounds=(1e-8, 1e3), symbol="v_s")
     decay = Parameter("1", "steepness of the fall", bounds=(0.5, 4.0), scale="linear", symbol="delta", default=2.0)
     exponent = Parameter(
         "1", "shape of the approach to sliding", bounds=(0.0, 4.0), scale="linear", symbol="i", default=1.0
@@ -42,7 +42,7 @@ class Stribeck(Element):
     bristle_damping = Parameter(
         "N*s/m",
         "damping of bristles that bend",
-        bounds=(0.0, 1e6),
+        bounds=(0.0, 1e11),
         scale="linear",
         symbol="sigma_1",
         default=0.0,

@@ -22,11 +22,11 @@ class StribeckCurve(Element):
     picture = Symbol.SLIDER
     source = "Andersson, Soderberg and Bjorklund, Tribology International 40 (2007) 580"
 
-    limit = Parameter("N", "sliding force at high speed", bounds=(1e-3, 1e6), symbol="F_c")
-    breakaway = Parameter("N", "sliding force at very low speed", bounds=(1e-3, 1e6), symbol="F_s")
-    stribeck_velocity = Parameter("m/s", "speed over which the force falls", bounds=(1e-5, 10.0), symbol="v_s")
+    limit = Parameter("N", "sliding force at high speed", bounds=(1e-6, 1e9), symbol="F_c")
+    breakaway = Parameter("N", "sliding force at very low speed", bounds=(1e-6, 1e9), symbol="F_s")
+    stribeck_velocity = Parameter("m/s", "speed over which the force falls", bounds=(1e-8, 1e3), symbol="v_s")
     decay = Parameter("1", "steepness of the fall", bounds=(0.5, 4.0), scale="linear", symbol="delta", default=2.0)
-    creep_velocity = Parameter("m/s", "velocity over which the force changes sides", bounds=(1e-9, 10.0), symbol="v_c")
+    creep_velocity = Parameter("m/s", "velocity over which the force changes sides", bounds=(1e-10, 1e3), symbol="v_c")
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:
         """The law at the velocity at the end of the step."""

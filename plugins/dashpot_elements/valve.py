@@ -32,15 +32,15 @@ class Valve(Element):
     source = "Hosea and Shampine, Applied Numerical Mathematics 20 (1996) 21, for TR-BDF2"
     exact = False
 
-    stiffness = Parameter("N/m", "stiffness in series", bounds=(1.0, 1e10), symbol="k")
-    compression = Parameter("N*s/m", "damping in compression below the knee", bounds=(1e-2, 1e7), symbol="d_c")
-    rebound = Parameter("N*s/m", "damping in rebound below the knee", bounds=(1e-2, 1e7), symbol="d_r")
-    compression_knee = Parameter("m/s", "velocity at which it opens in compression", bounds=(1e-4, 1e3), symbol="v_c")
-    rebound_knee = Parameter("m/s", "velocity at which it opens in rebound", bounds=(1e-4, 1e3), symbol="v_r")
+    stiffness = Parameter("N/m", "stiffness in series", bounds=(1e-3, 1e12), symbol="k")
+    compression = Parameter("N*s/m", "damping in compression below the knee", bounds=(1e-4, 1e11), symbol="d_c")
+    rebound = Parameter("N*s/m", "damping in rebound below the knee", bounds=(1e-4, 1e11), symbol="d_r")
+    compression_knee = Parameter("m/s", "velocity at which it opens in compression", bounds=(1e-8, 1e3), symbol="v_c")
+    rebound_knee = Parameter("m/s", "velocity at which it opens in rebound", bounds=(1e-8, 1e3), symbol="v_r")
     compression_opened = Parameter(
         "N*s/m",
         "slope far above the knee in compression, at most its damping",
-        bounds=(0.0, 1e7),
+        bounds=(0.0, 1e11),
         scale="linear",
         symbol="b_c",
         default=0.0,
@@ -48,7 +48,7 @@ class Valve(Element):
     rebound_opened = Parameter(
         "N*s/m",
         "slope far above the knee in rebound, at most its damping",
-        bounds=(0.0, 1e7),
+        bounds=(0.0, 1e11),
         scale="linear",
         symbol="b_r",
         default=0.0,

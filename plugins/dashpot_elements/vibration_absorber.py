@@ -27,13 +27,13 @@ class VibrationAbsorber(Element):
     source = "Den Hartog, Mechanical Vibrations (1956) section 3.2; Strang, SIAM J. Numer. Anal. 5 (1968) 506"
     exact = False
 
-    mass = Parameter("kg", "mass that swings along", bounds=(1e-3, 1e4), symbol="m")
-    stiffness = Parameter("N/m", "stiffness of the spring that it hangs on", bounds=(1.0, 1e9), symbol="k")
-    damping = Parameter("N*s/m", "linear damping beside the spring", bounds=(1e-2, 1e7), symbol="d_1")
+    mass = Parameter("kg", "mass that swings along", bounds=(1e-6, 1e12), symbol="m")
+    stiffness = Parameter("N/m", "stiffness of the spring that it hangs on", bounds=(1e-3, 1e12), symbol="k")
+    damping = Parameter("N*s/m", "linear damping beside the spring", bounds=(1e-4, 1e11), symbol="d_1")
     quadratic_damping = Parameter(
         "N*s^2/m^2",
         "damping that grows with the square of the speed",
-        bounds=(0.0, 1e8),
+        bounds=(0.0, 1e13),
         scale="linear",
         symbol="d_2",
         default=0.0,

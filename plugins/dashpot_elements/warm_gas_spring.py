@@ -29,8 +29,8 @@ class WarmGasSpring(Element):
     exact = False
     passive = False
 
-    force = Parameter("N", "force at zero deflection", bounds=(1e-3, 1e7), symbol="F_0")
-    length = Parameter("m", "length of the column of gas at zero deflection", bounds=(1e-6, 100.0), symbol="l")
+    force = Parameter("N", "force at zero deflection", bounds=(1e-6, 1e9), symbol="F_0")
+    length = Parameter("m", "length of the column of gas at zero deflection", bounds=(1e-6, 1e3), symbol="l")
     time = Parameter("s", "time constant of the cooling at constant volume", bounds=(1e-3, 1e5), symbol="tau")
     ratio = Parameter(
         "1", "ratio of the specific heats", bounds=(1.0, 1.7), scale="linear", symbol="kappa", default=1.4

@@ -19,8 +19,8 @@ class WornDamper(Element):
 
     picture = Symbol.DASHPOT
 
-    damping = Parameter("N*s/m", "damping at the beginning", bounds=(1e-2, 1e7), symbol="d")
-    work = Parameter("J", "work that leaves 37 % of the damping", bounds=(1e-6, 1e9), symbol="W")
+    damping = Parameter("N*s/m", "damping at the beginning", bounds=(1e-4, 1e11), symbol="d")
+    work = Parameter("J", "work that leaves 37 % of the damping", bounds=(1e-9, 1e12), symbol="W")
     moved = State("m^2/s", "integral of the squared velocity")
 
     def step(self, x: Motion, z: Any, p: Any, dt: Any) -> Response:

@@ -25,14 +25,14 @@ FORMAT = "dashpot-network/1"
 MEASUREMENT = {
     "force.delay": Kind("s", (-0.1, 0.1), "linear"),
     "force.gain": Kind("1", (0.2, 5.0), "linear"),
-    "force.offset": Kind("N", (-1e6, 1e6), "linear"),
-    "force.least": Kind("N", (-1e6, 1e6), "linear"),
+    "force.offset": Kind("N", (-1e9, 1e9), "linear"),
+    "force.least": Kind("N", (-1e9, 1e9), "linear"),
     "force.largest": Kind("N", (-1e9, 1e9), "linear"),
     "force.lag": Kind("s", (0.0, 1e3), "linear"),
     COMPLIANCE: Kind("m/N", (0.0, 1.0), "linear"),
     "force.hum.frequency": Kind("Hz", (1e-3, 1e5), "linear"),
-    "force.hum.cosine": Kind("N", (-1e6, 1e6), "linear"),
-    "force.hum.sine": Kind("N", (-1e6, 1e6), "linear"),
+    "force.hum.cosine": Kind("N", (-1e9, 1e9), "linear"),
+    "force.hum.sine": Kind("N", (-1e9, 1e9), "linear"),
 }
 
 # what drifts over a session, or with the temperature of the load cell

@@ -84,7 +84,7 @@ def test_factors_between_places():
             "the slope cannot depend on a setting itself",
         ),
         ("{fixed: 30 N}", "'fixed' is for a parameter with 'over'. write the value alone"),
-        ("{fixed: 1e9 N, over: {setting: p, at: 1, slope: 1 N}}", "expected 0.001 to 1e+06 N, got 1e+09"),
+        ("{fixed: 1e12 N, over: {setting: p, at: 1, slope: 1 N}}", "expected 1e-06 to 1e+09 N, got 1e+12"),
     ],
 )
 def test_mistakes_are_told_where_they_are(number, message):

@@ -14,7 +14,7 @@ TEXT = """\
 format: dashpot-network/1
 name: made
 branches:
-  soft: {element: maxwell, stiffness: {start: 0.168701 N/m}, relaxation_time: {start: 2 ms}}
+  soft: {element: maxwell, stiffness: {start: 1.68701e-5 N/m}, relaxation_time: {start: 2 ms}}
   own:
     element: coulomb
     limit: {start: 3 kN, bounds: [1 N, 2 kN]}
