@@ -28,7 +28,7 @@ NONE = frozenset[int]()
 
 @dataclass(frozen=True, eq=False)
 class Gram:
-    """A Gram matrix (c, c): the ``whole`` (c, c), and the squares of what comes ``back`` (g, c) beside it."""
+    """A Gram matrix (c, c): the ``whole`` (c, c) and a change of its rank, by the squares of rows ``back`` (g, c)."""
 
     whole: Array
     back: Array
@@ -54,21 +54,21 @@ class Gram:
 class Beside:
     """The columns of a ``front`` beside those in front that stay: some are ``going`` (g,) with their terms.
 
-    Without them each column takes up (g, c) of its own ``comes_back``. ``gram`` is the Gram matrix of all runs, and of
-    what is known beforehand, of columns divided by their scale. ``occam`` are the nats by which the marginal likelihood
-    is below that of the best strengths.
+    Without these the strengths of the others that take up one of each column are smaller by ``moved`` times ``change``
+    (g, c). ``gram`` is the Gram matrix of all runs, and of what is known beforehand, of columns divided by their scale.
+    ``occam`` are the nats by which the marginal likelihood is below that of the best strengths.
     """
 
     front: Front
     going: NDArray[np.intp]
-    comes_back: Array
+    change: Array
     gram: Gram
     occam: float
 
     @property
     def nbytes(self) -> int:
         """The bytes of its matrices."""
-        return self.comes_back.nbytes + self.gram.back.nbytes + len(self.front.grams) * 8 * self.moved.size
+        return self.change.nbytes + self.gram.back.nbytes + len(self.front.grams) * 8 * self.moved.size
 
     @cached_property
     def moved(self) -> Array:
@@ -77,12 +77,12 @@ class Beside:
 
     @cached_property
     def _pulled(self) -> Array:
-        """The products (groups, g, e) of that with the columns in front, by group."""
+        """The products (groups, g, e) of what ``moved`` says with the columns in front, by group."""
         return self.front.pulled_together[:, self.going]
 
     def taken(self, at: NDArray[np.intp]) -> Array:
         """The strengths (e, k) of the columns in front that take up one of each of the columns ``at`` (k,)."""
-        found: Array = self.front.moves[:, at] - self.moved @ self.comes_back[:, at]
+        found: Array = self.front.moves[:, at] - self.moved @ self.change[:, at]
         found[self.going] = 0.0
         return found
 
@@ -97,7 +97,7 @@ class Beside:
         """The Gram matrices (groups, k, k) of combinations (c, k) of these columns, by the group of runs."""
         at, grams, first = np.flatnonzero(combined.any(axis=1)), self.front.grams, self.front.precision.size
         own, places = combined[at], first + at
-        half = 0.5 * (self.front.pulled(at) - self.comes_back[:, at].T @ self._pulled)
+        half = 0.5 * (self.front.pulled(at) - self.change[:, at].T @ self._pulled)
         cross = (half - grams[:, places, :first]) @ self.taken(at)
         inner = grams[:, places[:, None], places] + cross + cross.transpose(0, 2, 1)
         found: Array = own.T @ inner @ own
