@@ -19,7 +19,7 @@ from dashpot.contract.chain import make_optimizer
 from dashpot.contract.metric import Metric
 from dashpot.contract.registry import Registry
 from dashpot.data.dataset import Dataset
-from dashpot.fit.api import Progress, Setting, fit_each, prepare, silent
+from dashpot.fit.api import Progress, Setting, fit_each, prepare, require_training_runs, silent
 from dashpot.fit.objective import as_simulated
 from dashpot.fit.refine import Outcome
 from dashpot.fit.result import FitResult, floor_of, parameters_of
@@ -124,9 +124,11 @@ def compare(
 ) -> Comparison:
     """Identify every network on the training runs and judge it on all runs, beside the explainable error.
 
-    A network that cannot be fitted is named with its reason; the others go on.
+    A network that cannot be fitted is named with its reason; the others go on. Raises InputError where all runs are
+    held out.
     """
     setting = prepare(dataset, seed)
+    require_training_runs(setting)
     method = make_optimizer(optimizer, registry.optimizers, options) if optimizer else None
     found = fit_each(specs, setting, method, seed, jobs, progress or silent)
     failures = {spec.name: str(each) for spec, each in zip(specs, found, strict=True) if isinstance(each, InputError)}

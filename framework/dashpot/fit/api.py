@@ -228,7 +228,8 @@ def fitted_or_raised(found: FitResult | InputError) -> FitResult:
     return found
 
 
-def _refuse_all_held_out(setting: Setting) -> None:
+def require_training_runs(setting: Setting) -> None:
+    """Raise InputError where all runs of a dataset are held out."""
     if not setting.split.train:
         message = f"expected runs to fit a network to, got {len(setting.split.held_out)}, all of them held out"
         raise InputError.at(Place(setting.dataset.name), message, "take 'held_out: true' from some, or add runs")
@@ -239,7 +240,7 @@ def fit_prepared(
     spec: NetworkSpec, setting: Setting, method: Optimizer | None, seed: int, jobs: int, progress: Progress
 ) -> FitResult:
     """Identify a network on a dataset made ready. Raises InputError where all of its runs are held out."""
-    _refuse_all_held_out(setting)
+    require_training_runs(setting)
     watch = _Watch(progress, spec.name, setting.floor.value)
     require_settings(spec, {name: run.excitation.settings for name, run in setting.scored.items()})
     started = ends_from_records(ground_curves(spec, setting.train), setting.train)

@@ -155,6 +155,17 @@ def test_signs_make_a_pressed_specimen_take_up_work(first, second):
     assert bool(signs[2]) is (signs[:2] != (1, 1))
 
 
+@pytest.mark.parametrize("begin", [0.0, -1.0, 3.0])
+@pytest.mark.parametrize("damping", [0.0, 500.0, 20e3])
+def test_a_ramp_that_is_held_has_the_sign_of_its_stiffness(begin, damping):
+    """It is squeezed while its force is below the mean, which is no work given back."""
+    way = begin + 5.0 * np.clip(TIME / 0.5, 0.0, 1.0) + 1e-3 * np.random.default_rng(3).standard_normal(TIME.size)
+    force = kelvin_voigt(way - 1e-3, noise=10.0, damping=damping)
+    assert find_signs(way, force)[:2] == (1, 1)
+    assert find_signs(way, -force)[0] * find_signs(way, -force)[1] == -1
+    assert find_signs(way, force, (1, 1)) == (1, 1, "")
+
+
 def test_a_damper_around_zero_has_the_sign_of_its_losses():
     way = chirp(1, 10)
     force = 300 * np.tanh(np.gradient(way, STEP))

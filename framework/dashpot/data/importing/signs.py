@@ -28,11 +28,12 @@ def find_signs(
 ) -> tuple[int, int, str]:
     """Signs of displacement and force, and why, where one of them is to be turned.
 
-    Raw numbers of both (n,). The force goes with the velocity, as work is lost, else with the displacement. A force
-    that nearly always pulls is taken for one whose tension counts positive. `common` are the signs of most runs: a run
-    that loses work only with another one gets a sign of its own, if that is clear or the force falls besides.
+    Raw numbers of both (n,). The force goes with the velocity where the motion is closed, as work is lost, else with
+    the displacement. A force that nearly always pulls is taken for one whose tension counts positive. `common` are the
+    signs of most runs: a run that loses work only with another one gets a sign of its own, if that is clear or the
+    force falls besides.
     """
-    loss, slope = correlation(np.gradient(displacement), force), correlation(displacement, force)
+    loss, slope = _loss(displacement, force), correlation(displacement, force)
     opposed = loss < 0 if abs(loss) > _CLEAR else slope < 0
     sign = -1 if opposed else 1
     if common is not None:
@@ -46,14 +47,35 @@ def find_signs(
     return (1, -1, _WHY[1, -1]) if opposed else (1, 1, "")
 
 
+def _loss(displacement: np.ndarray, force: np.ndarray) -> float:
+    """How well a force (n,) goes with the velocity, where the motion is closed; 0 where it is not."""
+    part = closed_part(displacement)
+    return correlation(np.gradient(displacement)[part], force[part])
+
+
+def closed_part(motion: np.ndarray) -> slice:
+    """Where a motion (n,) is closed, from the first to the last passage of its median.
+
+    Nothing where that is less than half of its way, as of a ramp that is held.
+    """
+    passes = np.flatnonzero(np.diff(motion > np.median(motion))) if motion.size else np.empty(0)
+    part = slice(int(passes[0]), int(passes[-1]) + 2) if passes.size else slice(0)
+    moved = motion[part]
+    return part if moved.size and np.ptp(moved) > 0.5 * np.ptp(motion) else slice(0)
+
+
 def lost_work(motion: np.ndarray, force: np.ndarray) -> float:
-    """The work that a force loses over a motion, as a part of all that is moved; below 0 where it is given back."""
-    way, middle = np.diff(motion), force - np.mean(force)
-    middle = 0.5 * (middle[1:] + middle[:-1])
+    """The work that a force loses over a motion, as a part of all that is moved; below 0 where it is given back.
+
+    That where the motion is closed: on the way to a preload, or of a ramp that is held, a spring takes up work, too.
+    """
+    part = closed_part(motion)
+    way, middle = np.diff(motion[part]), 0.5 * (force[part][1:] + force[part][:-1])
+    middle -= np.mean(force[part]) if middle.size else 0.0
     moved = float(np.sum(np.abs(middle * way)))
     return float(middle @ way) / moved if moved > 0.0 else 0.0
 
 
 def falls(displacement: np.ndarray, force: np.ndarray) -> bool:
     """Whether a force (n,) that takes up work clearly falls with the deflection (n,); signs have been set."""
-    return correlation(displacement, force) < -_CLEAR and correlation(np.gradient(displacement), force) > _CLEAR
+    return correlation(displacement, force) < -_CLEAR and _loss(displacement, force) > _CLEAR
