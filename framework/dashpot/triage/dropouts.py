@@ -74,8 +74,8 @@ def _jumps(x: Array, noise: float, missing: float) -> dict[int, float]:
 def _steps(x: Array, places: NDArray[np.intp], noise: float, missing: float) -> Array:
     """The steps between what comes before places and what comes after, both continued; 0 where it is none.
 
-    A step may be as long as the way between two samples at the fastest speed nearby: where a motion turns it stands
-    still, and yet the play in a drive lets it lurch.
+    A step may be as long as the way between two samples at the fastest speed nearby, beside its own error: where a
+    motion turns it stands still, and yet the play in a drive lets it lurch, and a triangle may turn between samples.
     """
     sides = [x[places[..., None] + np.arange(-SIDE, 0)], x[places[..., None] + np.arange(SIDE)]]
     times = [np.arange(-SIDE, 0) + 0.5, np.arange(SIDE) + 0.5]
@@ -94,5 +94,5 @@ def _steps(x: Array, places: NDArray[np.intp], noise: float, missing: float) -> 
         ),
         axis=0,
     )
-    certain = np.abs(step) > np.maximum(CERTAIN * np.maximum(noise, scatter), missing * speed)
+    certain = np.abs(step) > CERTAIN * np.maximum(noise, scatter) + missing * speed
     return np.where(certain, step, 0.0)

@@ -125,6 +125,26 @@ def test_corners_of_a_triangle_are_no_lost_samples(rng):
     assert kinds(Dataset("triangle", (run,))) == []
 
 
+@pytest.mark.parametrize("number", range(20))
+def test_a_triangle_may_turn_anywhere_between_two_samples(number):
+    """Of a slow record with little noise a corner is as sharp as a jump; what is lost on the way is a jump still."""
+    rng = np.random.default_rng([7, number])
+    period, count = rng.uniform(25.0, 400.0), int(rng.integers(200, 2000))
+    noise = 4e-3 / period * 10.0 ** rng.uniform(-4.0, -1.0)
+
+    def slow(phase):
+        x = 1e-3 * (4.0 * np.abs(phase % 1.0 - 0.5) - 1.0) + noise * rng.standard_normal(count)
+        return Run("r", "quasi_static", 0.1 * np.arange(count), {"displacement": x, "force": 1e6 * x})
+
+    phase = rng.random() + np.arange(count) / period
+    assert lost_samples(slow(phase)) is None
+    cut, at = phase.copy(), count // 2
+    cut[at:] += 0.25 - phase[at]  # goes on in the middle of a stroke
+    left = abs(4.0 * abs(phase[at - 1] % 1.0 - 0.5) - 1.0)
+    if left > 16.0 / period:  # of the amplitude: four samples away from there
+        assert lost_samples(slow(cut)) is not None
+
+
 def test_clipped_runs_that_reading_set_aside_are_remembered(rng):
     data = replace(dataset(rng), faults=(("gone", Trouble("the force stays", "measure again", fault="clipping")),))
     fault = examine(data).faults[0]
