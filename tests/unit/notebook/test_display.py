@@ -76,7 +76,7 @@ def test_a_model_shows_its_schematic_its_numbers_and_its_weaknesses():
 def test_the_parameters_of_a_model_have_meanings_rig_units_and_ranges():
     [rubber, damping] = dp.declare(MODEL).table().rows
     assert (rubber["value"], rubber["unit"], rubber["lower"], rubber["upper"]) == (150.0, "N/mm", 10.0, 1000.0)
-    assert (damping["value"], damping["unit"], damping["lower"]) == (0.5, "N*s/mm", pytest.approx(1e-5))
+    assert (damping["value"], damping["unit"], damping["lower"]) == (0.5, "N*s/mm", pytest.approx(1e-7))
 
 
 def test_a_dataset_shows_its_runs_and_channels(data):
