@@ -34,7 +34,6 @@ class ScaledView(SmallView):
 
     def __init__(self, length, time, force):
         super().__init__()
-        self.time = time
         self.text = f"""\
 format: dashpot-network/1
 name: plain
@@ -48,11 +47,8 @@ branches:
         }
         self.reach = (self.reach[0] * length, self.reach[1] * length)
         self.stroke, self.speed = self.stroke * length, self.speed * length / time
-        self.dt, self.duration, self.highest_frequency = (
-            STEP * time,
-            self.duration * time,
-            self.highest_frequency / time,
-        )
+        self.dt, self.duration = STEP * time, self.duration * time
+        self.highest_frequency /= time
 
     def step(self, run):
         return self.dt
