@@ -14,10 +14,11 @@ from dashpot.model.patch import add_measurement, remove_measurement
 from dashpot.text.quantity import pretty
 
 Array = NDArray[np.float64]
-LONGEST = 0.05
+LONGEST = 0.05  # s
 # of 1/w at the end of the band: delays so short that the force changes in proportion to them, and longer ones
 SHARES = (1e-2, *(side * 0.0625 * 2.0**step for step in range(7) for side in (1.0, -1.0)))
-LAGS = tuple(float(lag) for lag in np.geomspace(5e-5, 2e-2, 20))  # s
+LAGS = tuple(float(share) for share in np.geomspace(0.008, 3.2, 20))
+BEYOND = 2.0  # times the longest that is tried: where a refit may go in a test so slow that this is more
 
 
 class Delay(Cause):
@@ -39,13 +40,15 @@ class Delay(Cause):
 
         To first order in the frequency they are the same: both together, one against the other, would be any law.
         """
+        natural = 1.0 / (2.0 * np.pi * view.highest_frequency)
+        longest = max(LONGEST, BEYOND * max(SHARES) * natural)
         if "force.delay" not in network.measurement:
-            delays = tuple(share / (2.0 * np.pi * view.highest_frequency) for share in SHARES)
+            delays = tuple(share * natural for share in SHARES)
             yield Suspect(
                 "delay",
                 delays,
                 partial(_shifted, delays),
-                _extend,
+                partial(_extend, longest),
                 sign=0,
                 unknowns=0,
                 measured=True,
@@ -53,8 +56,15 @@ class Delay(Cause):
                 unit="s",
             )
         if "force.lag" not in network.measurement:
+            lags = tuple(share * natural for share in LAGS)
             yield Suspect(
-                "low-pass of first order", LAGS, _lagging, _low_pass, measured=True, quantity="share", unit="1"
+                "low-pass of first order",
+                lags,
+                partial(_lagging, lags),
+                partial(_low_pass, (lags[0], lags[-1]), longest),
+                measured=True,
+                quantity="share",
+                unit="1",
             )
 
 
@@ -70,27 +80,27 @@ def _shifted(delays: Sequence[float], view: View, run: str) -> Array:
     return np.array([(late(delay) - force) / delay for delay in delays])
 
 
-def _lagging(view: View, run: str) -> Array:
+def _lagging(lags: Sequence[float], view: View, run: str) -> Array:
     """What a low-pass of first order by each of the lags takes away; before the run the force did not change."""
     from scipy.signal import lfilter
 
     force, step = view.force(run), view.step(run)
     rise, rows = force - force[0], []
-    for lag in LAGS:
+    for lag in lags:
         half = 0.5 * step / lag
         rows.append(lfilter([half / (1.0 + half)] * 2, [1.0, (half - 1.0) / (1.0 + half)], rise) - rise)
     return np.array(rows)
 
 
-def _low_pass(text: str, atoms: Sequence[Atom]) -> str:
+def _low_pass(ends: tuple[float, float], longest: float, text: str, atoms: Sequence[Atom]) -> str:
     share, lag = atoms[0]
-    start = float(np.clip(share * lag, LAGS[0], LAGS[-1]))
+    start = float(np.clip(share * lag, *ends))
     text = remove_measurement(text, "delay")
-    return add_measurement(text, "lag", f"{{start: {pretty(start, 's', 6)}, bounds: [1 us, {pretty(LONGEST, 's')}]}}")
+    return add_measurement(text, "lag", f"{{start: {pretty(start, 's', 6)}, bounds: [1 us, {pretty(longest, 's')}]}}")
 
 
-def _extend(text: str, atoms: Sequence[Atom]) -> str:
-    lag = float(np.clip(atoms[0][0], -0.9 * LONGEST, 0.9 * LONGEST))
-    bounds = f"[{pretty(-LONGEST, 's')}, {pretty(LONGEST, 's')}]"
+def _extend(longest: float, text: str, atoms: Sequence[Atom]) -> str:
+    lag = float(np.clip(atoms[0][0], -0.9 * longest, 0.9 * longest))
+    bounds = f"[{pretty(-longest, 's')}, {pretty(longest, 's')}]"
     text = remove_measurement(text, "lag")
     return add_measurement(text, "delay", f"{{start: {pretty(lag, 's', 6)}, bounds: {bounds}}}")

@@ -23,7 +23,7 @@ from dashpot.text.problem import InputError, Place, Problem
 
 FORMAT = "dashpot-network/1"
 MEASUREMENT = {
-    "force.delay": Kind("s", (-0.1, 0.1), "linear"),
+    "force.delay": Kind("s", (-1e3, 1e3), "linear"),
     "force.gain": Kind("1", (0.2, 5.0), "linear"),
     "force.offset": Kind("N", (-1e9, 1e9), "linear"),
     "force.least": Kind("N", (-1e9, 1e9), "linear"),

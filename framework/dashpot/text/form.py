@@ -19,6 +19,7 @@ class _Required:
 
 
 REQUIRED: Final = _Required()
+LARGEST = 1e30  # in SI units: no specimen or rig has more, and products of such numbers are still finite
 
 
 class Form:
@@ -204,10 +205,13 @@ def read_flag(node: Node) -> bool:
 
 
 def read_quantity(node: Node, unit: str) -> float:
-    """A quantity in SI. ValueError for a wrong unit and for anything that is not a quantity."""
+    """A quantity in SI. ValueError for a wrong unit, for one that nothing has, and for anything that is no quantity."""
     if not isinstance(node, Scalar) or node.value is None:
         raise ValueError(f"expected a quantity in {unit}, got {node.describe()}")
-    return si(node.value, unit)
+    number = si(node.value, unit)
+    if abs(number) > LARGEST:
+        raise ValueError(f"expected a quantity of up to {LARGEST:g} {unit}, got {number:g}; check the number")
+    return number
 
 
 def read_choice(node: Node, known: Collection[str], meant: dict[str, str] | None = None) -> str:

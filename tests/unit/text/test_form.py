@@ -70,7 +70,7 @@ def test_a_number_is_finite_and_nothing_else(value):
     assert len(form.problems) == 1
 
 
-@pytest.mark.parametrize("value", ["", "true", "{a: 1}", "1e400", "1 furlong"])
+@pytest.mark.parametrize("value", ["", "true", "{a: 1}", "1e400", "-1e31", "1 furlong"])
 def test_a_quantity_that_is_none_is_told(value):
     form = form_of(f"q: {value}\n")
     assert form.quantity("q", "m") is None
