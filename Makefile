@@ -14,7 +14,8 @@ demo: $(VENV)/installed
 
 test: $(VENV)/installed-for-tests
 	$(BIN)/ruff check . && $(BIN)/ruff format --check .
-	$(BIN)/python -m pytest -m "not slow and not real" --numprocesses auto --dist worksteal
+	OMP_NUM_THREADS=1 OPENBLAS_NUM_THREADS=1 \
+	    $(BIN)/python -m pytest -m "not slow and not real" --numprocesses auto --dist worksteal
 
 types: $(VENV)/installed-for-tests
 	$(BIN)/mypy

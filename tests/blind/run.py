@@ -60,7 +60,7 @@ class Bench:
     without: bool = False
     follow: bool = False
     double: bool = False
-    jobs: int = 2
+    jobs: int = 1
 
     def run(self, seed: int, base: str, kind: str | None = None, strength: float | None = None) -> Outcome:
         """Draw, diagnose, record the verdict, open the label."""

@@ -331,7 +331,7 @@ def test_the_law_is_the_cause_that_is_worth_most(tmp_path, seed, case):
     readers = {each: reader() for each, reader in registry.formats.items()}
     dataset = read_dataset(measured(tmp_path, seed, case), readers)
     model = parse_network(case.model, registry.elements)
-    found = diagnose(model, dataset, jobs=2, registry=registry).as_dict()
+    found = diagnose(model, dataset, registry=registry).as_dict()
     told = [(cause["cause"], cause["accepted"], cause["probability"], cause["gain"]) for cause in found["causes"]]
     print(found["verdict"], told, found["rmse"])
     most = max(found["causes"], key=lambda cause: cause["gain"] or 0.0, default={"cause": "nothing"})

@@ -35,7 +35,7 @@ def test_lift_off_is_named_where_the_platform_does_not_hold_the_specimen(tmp_pat
     registry = load_registry()
     readers = {word: reader() for word, reader in registry.formats.items()}
     dataset = read_dataset(measured(tmp_path, seed, held), readers)
-    found = diagnose(read_network("kelvin_voigt", registry.elements), dataset, jobs=2, registry=registry).as_dict()
+    found = diagnose(read_network("kelvin_voigt", registry.elements), dataset, registry=registry).as_dict()
     print(found["verdict"], [(cause["cause"], cause["gain"]) for cause in found["causes"]], found["rmse"])
     assert [cause["cause"] for cause in found["causes"] if cause["accepted"]] == ([] if held else ["lift_off"])
     assert found["rmse"]["after"]["held_out"] < 1.05 * NOISE

@@ -139,7 +139,7 @@ def test_what_changes_from_run_to_run_is_one_cause(tmp_path, seed, change, expec
     registry = load_registry()
     readers = {word: reader() for word, reader in registry.formats.items()}
     dataset = read_dataset(measured(tmp_path, seed, change), readers)
-    found = diagnose(read_network("kelvin_voigt", registry.elements), dataset, jobs=2, registry=registry).as_dict()
+    found = diagnose(read_network("kelvin_voigt", registry.elements), dataset, registry=registry).as_dict()
     print(found["verdict"], [(cause["cause"], cause["gain"]) for cause in found["causes"]], found["rmse"])
     assert [cause["cause"] for cause in found["causes"]][:1] == expected
     if expected:
@@ -150,7 +150,7 @@ def test_a_stiffness_that_falls_less_than_the_damping_is_softened_by_one_heat(tm
     registry = load_registry()
     readers = {word: reader() for word, reader in registry.formats.items()}
     dataset = read_dataset(measured(tmp_path, seed, unalike), readers)
-    found = diagnose(read_network("kelvin_voigt", registry.elements), dataset, jobs=2, registry=registry)
+    found = diagnose(read_network("kelvin_voigt", registry.elements), dataset, registry=registry)
     assert [named.cause.word for named in found.named if named.accepted] == ["heating"]
     assert found.after.held_out < 1.1 * NOISE
 

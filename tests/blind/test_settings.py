@@ -58,7 +58,7 @@ def measured(seed: int) -> Dataset:
 def test_a_law_whose_numbers_follow_a_setting_is_found_with_it(seed):
     registry = load_registry()
     model = read_network("kelvin_voigt", registry.elements)
-    found = diagnose(model, measured(seed), jobs=2, registry=registry).as_dict()
+    found = diagnose(model, measured(seed), registry=registry).as_dict()
     print(found["verdict"], [(cause["cause"], cause["probability"]) for cause in found["causes"]], found["rmse"])
     names = {cause["cause"] for cause in found["causes"] if cause["accepted"]}
     assert "setting_dependence" in names and names & {"relaxation", "compliant_damper"}
