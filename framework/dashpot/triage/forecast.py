@@ -69,10 +69,10 @@ def moments_of_run(run: Run, sizes: Sizes) -> Moments:
     return moments_of(run.displacement, rate_of(run), run.force, sizes)
 
 
-def swapped_moments(run: Run, sizes: Sizes) -> list[Moments]:
-    """The moments of a run with its force and its displacement taken for each other, in each pair of units."""
+def swapped(run: Run) -> list[tuple[Array, Array, Array]]:
+    """Deflection, velocity and force of a run with its channels taken for each other, in each pair of units."""
     x, force, slope = run.displacement, run.force, np.gradient(run.force, run.sample_time)
-    return [moments_of(factor * force, factor * slope, x / factor, sizes) for factor in SWAPS]
+    return [(factor * force, factor * slope, x / factor) for factor in SWAPS]
 
 
 def fitted(moments: Sequence[Moments]) -> Array:

@@ -12,24 +12,28 @@ from dashpot.data.resample import advance
 from dashpot.data.run import Run
 from dashpot.text.quantity import pretty
 from dashpot.triage.agreement import MOSTLY
-from dashpot.triage.energy import ONE_IN, giving_back, works_of
+from dashpot.triage.energy import giving_back, works_of
 from dashpot.triage.fault import ENERGY, Fault
-from dashpot.triage.forecast import Moments, Sizes, compared, fitted, moments_of, moments_of_run, swapped_moments
+from dashpot.triage.forecast import Sizes, compared, fitted, moments_of_run, swapped
+from dashpot.triage.others import Others, Signals, farthest, missed, signals_of, unlike
 from dashpot.triage.work import CycleWork
 
 Array = NDArray[np.float64]
 
 FEWEST_OTHERS = 2
 FEWEST_TOGETHER = 2  # runs: what a single one has may be its own
-_TINY = 1e-300
 
 
 @dataclass(frozen=True, eq=False)
 class _Try:
-    """A run as it would be without a fault, and how much of its force the others do not explain then."""
+    """A run as it would be without a fault, and how much of its force the others do not explain then.
+
+    ``known`` says whether they have been where it would be.
+    """
 
     kind: str
     unlike: float
+    known: bool
     words: str
     cure: str
     factor: float | None = None
@@ -112,24 +116,26 @@ def _common_delay(bad: Sequence[Run], sound: Sequence[Run], works: Mapping[str, 
         return None
     if not sound:
         return least if all(_by_itself(run, works[run.name]).kind == "delay" for run in bad) else None
-    sizes = Sizes.of(sound)
-    earlier = [_earlier(run, least, sizes) for run in sound]
-    usual = [_missed(each, fitted(_but(number, earlier))) for number, each in enumerate(earlier)]
-    coefficients, as_they_are = fitted(earlier), fitted([moments_of_run(run, sizes) for run in sound])
-    together = [_missed(_earlier(run, least, sizes), coefficients) for run in bad]
-    alone = [
-        min(
-            _missed(_earlier(run, count * run.sample_time, sizes), as_they_are)
-            for count in _delays(run, works[run.name])
-        )
-        for run in bad
-    ]
-    return least if max(together) <= _farthest(usual) and sum(together) < sum(alone) else None
+    others, later = Others.of(sound), Others.of(sound, [_earlier(run, least) for run in sound])
+    known = [run for run in bad if later.know(run.displacement)]
+    together = [later.apart(_earlier(run, least), missed) for run in known]
+    alone = [min(others.apart(each, missed) for each, _ in _in_time(run, works[run.name])) for run in known]
+    course = [later.apart(_earlier(run, least), unlike) for run in bad if run not in known]
+    if max(together, default=0.0) > farthest(later.there.usual(missed)) or sum(together) > sum(alone):
+        return None
+    return least if max(course, default=0.0) <= farthest(later.beyond.usual(unlike)) else None
 
 
-def _earlier(run: Run, delay: float, sizes: Sizes) -> Moments:
-    force = advance(run.force, round(delay / run.sample_time))
-    return moments_of(run.displacement, np.gradient(run.displacement, run.sample_time), force, sizes)
+def _earlier(run: Run, delay: float) -> Signals:
+    """The signals of a run with its force earlier."""
+    x, rate, force = signals_of(run)
+    return x, rate, advance(force, round(delay / run.sample_time))
+
+
+def _in_time(run: Run, work: CycleWork) -> Iterator[tuple[Signals, float]]:
+    """The signals of a run with its force earlier by so many seconds, of each delay that it may have."""
+    for count in _delays(run, work):
+        yield _earlier(run, count * run.sample_time), count * run.sample_time
 
 
 def _fault_of(run: Run, work: CycleWork, sound: Sequence[Run]) -> Fault:
@@ -151,94 +157,66 @@ def _fault_of(run: Run, work: CycleWork, sound: Sequence[Run]) -> Fault:
 def _most_likely(run: Run, work: CycleWork, sound: Sequence[Run]) -> _Try | None:
     if len(sound) < FEWEST_OTHERS:
         return _by_itself(run, work)
-    sizes = Sizes.of(sound)
-    moments = [moments_of_run(other, sizes) for other in sound]
-    coefficients = fitted(moments)
-    usual = [_unlike(each, fitted(_but(number, moments))) for number, each in enumerate(moments)]
-    in_size = _farthest([_missed(each, fitted(_but(number, moments))) for number, each in enumerate(moments)])
-    tries = list(_tries(run, work, sizes, coefficients, in_size))
-    least = min(each.unlike for each in tries)
-    if least > _farthest(usual):
+    others = Others.of(sound)
+    # where the others have been they tell more, and then the more usual mistake comes first
+    tries = sorted(_tries(run, work, others), key=lambda each: not each.known)
+    usual = {known: forecast.usual(unlike) for known, forecast in ((True, others.there), (False, others.beyond))}
+    least = min(tries, key=lambda each: each.unlike)
+    if least.unlike > farthest(usual[least.known]):
         return None
-    # what differs by no more than the other runs do among themselves is told alike: then the usual mistake comes first
-    return next(each for each in tries if each.unlike - least <= max(usual) - min(usual))
+    # what differs by no more than the other runs do among themselves is told alike
+    alike = max(max(each) - min(each) for each in usual.values())
+    return next(each for each in tries if each.unlike - least.unlike <= alike)
 
 
-def _farthest(usual: Sequence[float]) -> float:
-    """The share of the square of its force that the others leave of a sound run in all but one of 1000 cases.
-
-    By Student's t over the logarithms of what they leave of each other; never more than half.
-    """
-    from scipy.special import stdtrit
-
-    logs = np.log(np.maximum(usual, _TINY))
-    beyond = float(stdtrit(logs.size - 1, 1.0 - 1.0 / ONE_IN)) * np.sqrt(1.0 + 1.0 / logs.size)
-    reach = float(np.mean(logs) + beyond * np.std(logs, ddof=1))
-    return float(np.exp(min(max(reach, float(np.max(logs))), np.log(MOSTLY))))
-
-
-def _but(number: int, moments: Sequence[Moments]) -> list[Moments]:
-    return [each for k, each in enumerate(moments) if k != number]
-
-
-def _unlike(moments: Moments, coefficients: Array) -> float:
-    """The share of the square of a force that no multiple of the forecast explains; all of it for a negative one."""
-    gain, likeness = compared(moments, coefficients)
-    return 1.0 - likeness if gain > 0.0 else 1.0
-
-
-def _missed(moments: Moments, coefficients: Array) -> float:
-    """The share of the square of a force that the forecast as it is leaves, at most all of it."""
-    gain, likeness = compared(moments, coefficients)
-    return min(1.0 - likeness + (1.0 / gain - 1.0) ** 2 * likeness, 1.0) if gain > 0.0 else 1.0
-
-
-def _tries(run: Run, work: CycleWork, sizes: Sizes, coefficients: Array, in_size: float) -> Iterator[_Try]:
+def _tries(run: Run, work: CycleWork, others: Others) -> Iterator[_Try]:
     """What may have gone wrong, the more usual mistakes first.
 
-    Of swapped channels the forecast leaves no more than a share ``in_size``: but for it, any elastic run is like them.
+    Of swapped channels the forecast leaves no more than of sound runs: but for it, any elastic run is like them.
     """
-    x, force = run.displacement, run.force
-    rate = np.gradient(x, run.sample_time)
-
-    def unlike(x: Array, rate: Array, force: Array) -> float:
-        return _unlike(moments_of(x, rate, force, sizes), coefficients)
-
-    yield _turned_force(unlike(x, rate, -force))
+    x, rate, force = signals_of(run)
+    yield _turned_force(others.apart((x, rate, -force), unlike), others.know(x))
     yield _Try(
         "polarity",
-        unlike(-x, -rate, force),
+        others.apart((-x, -rate, force), unlike),
+        others.know(-x),
         "with its displacement turned round it agrees with the others",
         "Write 'sign: -1' under its displacement channel",
         -1.0,
         "displacement",
     )
-    swaps = swapped_moments(run, sizes)
-    if swapped := [_unlike(each, coefficients) for each in swaps if _missed(each, coefficients) <= in_size]:
+    swaps = [each for each in swapped(run) if _agrees_in_size(each, others)]
+    if swaps:
+        apart, best = min(((others.apart(each, unlike), each) for each in swaps), key=lambda one: one[0])
         yield _Try(
             "swapped_channels",
-            min(swapped),
+            apart,
+            others.know(best[0]),
             "with its force and displacement taken for each other it agrees with the others",
             "Swap the columns of its force and displacement channels",
         )
-    late = [
-        (_unlike(_earlier(run, count * run.sample_time, sizes), coefficients), count) for count in _delays(run, work)
-    ]
+    late = [(others.apart(each, unlike), delay) for each, delay in _in_time(run, work)]
     if late:
-        apart, count = min(late)
-        delay = pretty(count * run.sample_time, "s", 3)
+        apart, delay = min(late)
+        told = pretty(delay, "s", 3)
         yield _Try(
             "delay",
             apart,
-            f"with its force {delay} earlier it agrees with the others",
-            f"Write 'delay: {delay}' under its force channel",
+            others.know(x),
+            f"with its force {told} earlier it agrees with the others",
+            f"Write 'delay: {told}' under its force channel",
         )
 
 
-def _turned_force(unlike: float) -> _Try:
+def _agrees_in_size(signals: Signals, others: Others) -> bool:
+    return others.apart(signals, missed) <= farthest(others.forecast(signals[0]).usual(missed))
+
+
+def _turned_force(apart: float, known: bool) -> _Try:
     return _Try(
         "polarity",
-        unlike,
+        apart,
+        known,
         "with its force turned round it takes up work and agrees with the others",
         "Write 'sign: -1' under its force channel, or swap the wires",
         -1.0,
@@ -281,6 +259,7 @@ def _by_itself(run: Run, work: CycleWork) -> _Try:
         return _Try(
             "polarity",
             0.0,
+            False,
             "with its force turned round it takes up work",
             "Write 'sign: -1' under its force channel, or swap the wires",
             -1.0,
@@ -289,6 +268,7 @@ def _by_itself(run: Run, work: CycleWork) -> _Try:
     return _Try(
         "delay",
         0.0,
+        False,
         f"it resists deflection, but its force comes late, by {least} or more",
         "Write its 'delay' under its force channel, or let the network identify it",
     )

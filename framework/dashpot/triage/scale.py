@@ -20,7 +20,8 @@ from dashpot.text.quantity import pretty
 from dashpot.triage.agreement import ACCURACY, FEWEST, MOSTLY, Agreement, find_agreement
 from dashpot.triage.conditions import FRICTION, change_by_conditions, ratios
 from dashpot.triage.fault import OTHER_RUNS, Fault
-from dashpot.triage.forecast import Moments, Sizes, moments_of, moments_of_run, rate_of, swapped_moments
+from dashpot.triage.forecast import Moments, Sizes, moments_of, moments_of_run, rate_of, swapped
+from dashpot.triage.others import Others
 
 # what was measured over what it is -> how that comes about
 FORCES = {
@@ -123,8 +124,10 @@ def _of_group(runs: Sequence[Run], least: float) -> Iterator[Fault]:
 
 
 def _fault_of(run: Run, known: Agreement, inside: Sequence[Run], sizes: Sizes, least: float) -> Fault | None:
-    shared = Shared.of(inside)
-    gain, likeness = known.compare(shared.moments(run, sizes) or moments_of_run(run, sizes))
+    there = Shared.of(inside).moments(run, sizes)
+    # beyond where the others have been nobody knows the law: its force is that of another setting
+    beside = least if there else max(least, SETTLED)
+    gain, likeness = known.compare(there) if there else Others.of(inside).course(run)
     if known.is_like(likeness) and gain < 0.0 and abs(math.log(-gain)) <= known.reach:
         return Fault(
             run.name,
@@ -138,7 +141,7 @@ def _fault_of(run: Run, known: Agreement, inside: Sequence[Run], sizes: Sizes, l
     allowed = known.reach + change
     if gain > 0.0 and likeness >= MOSTLY and abs(math.log(gain)) <= known.reach:
         return None
-    force = _force_fault(run, gain, likeness, known, least) or _far_fault(run, gain, likeness, known, allowed, least)
+    force = _force_fault(run, gain, likeness, known, beside) or _far_fault(run, gain, likeness, known, allowed, beside)
     # where a force hardly depends on the deflection, as friction, any divisor of this makes it like the others
     beyond = change_by_conditions([*inside, run]) - change > allowed
     stroke = _stroke_fault(run, known, sizes, allowed, least) if beyond else None
@@ -155,7 +158,7 @@ def _fault_of(run: Run, known: Agreement, inside: Sequence[Run], sizes: Sizes, l
 
 def _swaps(run: Run, known: Agreement, sizes: Sizes, nearest: float) -> bool:
     """Whether a run with force and displacement taken for each other is what the others expect, in its size as well."""
-    seen = [known.compare(each) for each in swapped_moments(run, sizes)]
+    seen = [known.compare(moments_of(*each, sizes)) for each in swapped(run)]
     within = min(known.tolerance, nearest)
     return any(gain > 0.0 and likeness >= MOSTLY and abs(math.log(gain)) <= within for gain, likeness in seen)
 

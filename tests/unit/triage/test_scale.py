@@ -120,6 +120,25 @@ def test_another_setting_is_no_wrong_unit():
     assert told(plain) == [("a1", "unit", "force")]
 
 
+def kneed(number, preload, amplitude, ratio, knee):
+    """So many times stiffer beyond a knee."""
+    x = preload + amplitude * np.sin(2.0 * np.pi * 2.0 * TIME)
+    force = 2e5 * x + (ratio - 1.0) * 2e5 * np.maximum(x - knee, 0.0) + 500.0 * np.gradient(x, STEP)
+    name = f"r{number}"
+    force = force + np.random.default_rng(number).standard_normal(x.size)
+    return Run(name, "harmonic", TIME, {"displacement": x, "force": force}, group=name)
+
+
+@pytest.mark.parametrize(
+    ("ratio", "knee", "far"),
+    [(3.0, 9e-3, 18e-3), (3.0, 9e-3, 23e-3), (4.0, 9e-3, 20e-3), (4.0, 10e-3, 18e-3), (5.0, 10e-3, 15e-3)],
+)
+def test_preloads_on_both_sides_of_a_knee_are_good(ratio, knee, far):
+    """No law is known where no other run has been: neither a factor below 1000 nor a polynomial tells anything."""
+    conditions = [(p, a) for p in (4e-3, 9e-3, far) for a in (0.9e-3, 1.8e-3)]
+    assert told([kneed(k, *each, ratio, knee) for k, each in enumerate(conditions)]) == []
+
+
 @pytest.mark.parametrize("factor", [1e3, 4.4482216])
 def test_an_accuracy_of_one_percent_is_allowed(factor):
     assert told(scaled(rubber(0.0), 2, "force", 1.008 * factor)) == [("a0.5", "unit", "force")]
