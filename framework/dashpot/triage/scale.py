@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -19,6 +19,7 @@ from dashpot.data.run import Run
 from dashpot.text.quantity import pretty
 from dashpot.triage.agreement import ACCURACY, FEWEST, MOSTLY, Agreement, find_agreement
 from dashpot.triage.conditions import FRICTION, change_by_conditions, ratios
+from dashpot.triage.energy import runs_that_give_back
 from dashpot.triage.fault import OTHER_RUNS, Fault
 from dashpot.triage.forecast import Moments, Sizes, moments_of, moments_of_run, rate_of, swapped
 from dashpot.triage.others import Others
@@ -128,7 +129,8 @@ def _fault_of(run: Run, known: Agreement, inside: Sequence[Run], sizes: Sizes, l
     # beyond where the others have been nobody knows the law: its force is that of another setting
     beside = least if there else max(least, SETTLED)
     gain, likeness = known.compare(there) if there else Others.of(inside).course(run)
-    if known.is_like(likeness) and gain < 0.0 and abs(math.log(-gain)) <= known.reach:
+    like = known.is_like(likeness) and gain < 0.0 and abs(math.log(-gain)) <= known.reach
+    if like and not _gives_back_if_turned(run, inside):
         return Fault(
             run.name,
             "polarity",
@@ -154,6 +156,12 @@ def _fault_of(run: Run, known: Agreement, inside: Sequence[Run], sizes: Sizes, l
         return unit
     away = abs(math.log(gain)) if gain > 0.0 and likeness >= MOSTLY else math.inf
     return _swapped(run) if away > allowed and _swaps(run, known, sizes, away / CLEARLY) else unit
+
+
+def _gives_back_if_turned(run: Run, others: Sequence[Run]) -> bool:
+    """Whether a run with its force turned round gives back work: what pushes against its deflection is a mass then."""
+    turned = replace(run, channels={**run.channels, "force": -run.force})
+    return run.name in runs_that_give_back([*others, turned])
 
 
 def _swaps(run: Run, known: Agreement, sizes: Sizes, nearest: float) -> bool:
