@@ -139,14 +139,15 @@ def test_preloads_on_both_sides_of_a_knee_are_good(ratio, knee, far):
     assert told([kneed(k, *each, ratio, knee) for k, each in enumerate(conditions)]) == []
 
 
-@pytest.mark.parametrize("frequencies", [(1.0, 4.0, 20.0), (1.0, 12.0, 15.0, 25.0), (4.0, 8.0, 12.0, 20.0)])
-def test_a_mass_that_outweighs_its_spring_is_no_wrong_sign(frequencies):
+@pytest.mark.parametrize("resonance", [9.0, 11.0])
+@pytest.mark.parametrize("damping", [800.0, 2500.0])
+def test_a_mass_that_outweighs_its_spring_is_no_wrong_sign(resonance, damping):
     """Above its resonance a force pushes against the deflection; turned round it would give back work."""
     runs = []
-    for number, (a, f) in enumerate((a, f) for a in (0.5e-3, 1e-3) for f in frequencies):
+    for number, (a, f) in enumerate((a, f) for a in (0.5e-3, 1e-3) for f in (4.0, 15.0, 25.0)):
         omega = 2.0 * np.pi * f
         x, v = a * np.sin(omega * TIME), a * omega * np.cos(omega * TIME)
-        force = 2e5 * (1.0 - (f / 11.0) ** 2) * x + 1500.0 * v + np.random.default_rng(number).standard_normal(x.size)
+        force = 2e5 * (1.0 - (f / resonance) ** 2) * x + damping * v + np.random.default_rng(number).normal(size=x.size)
         runs.append(Run(f"r{number}", "harmonic", TIME, {"displacement": x, "force": force}, group=f"r{number}"))
     assert told(runs) == []
 
