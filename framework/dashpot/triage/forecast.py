@@ -76,12 +76,16 @@ def swapped(run: Run) -> list[tuple[Array, Array, Array]]:
 
 
 def fitted(moments: Sequence[Moments]) -> Array:
-    """The coefficients that explain the forces of all runs best, each weighed by its own size."""
-    gram = np.sum([each.gram / each.power for each in moments], axis=0)
-    right = np.sum([each.right / each.power for each in moments], axis=0)
+    """The coefficients that explain the forces of all runs best, each weighed by its own size.
+
+    What differs from their means counts: each run may have a zero of its own.
+    """
+    centred = [each.centred() for each in moments]
+    gram = np.sum([each.gram[1:, 1:] / each.power for each in centred], axis=0)
+    right = np.sum([each.right[1:] / each.power for each in centred], axis=0)
     scale = np.sqrt(np.maximum(np.diag(gram), _TINY))
     matrix = gram / np.outer(scale, scale) + RIDGE * np.eye(scale.size)
-    return np.linalg.solve(matrix, right / scale) / scale
+    return np.concatenate([[0.0], np.linalg.solve(matrix, right / scale) / scale])
 
 
 def compared(moments: Moments, coefficients: Array) -> tuple[float, float]:
