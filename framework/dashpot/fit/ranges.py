@@ -41,8 +41,8 @@ class Sizes:
     spreads: Mapping[str, float] = field(default_factory=dict)
 
     @property
-    def swing(self) -> float:
-        """The longest time (s) in which a motion goes its half span at its speed: how late a channel may be."""
+    def lateness(self) -> float:
+        """The size of a delay in s: the longest time in which a motion goes its half span at its speed."""
         return max((run.length / run.speed for run in self.runs), default=self.longest)
 
     def of_unit(self, unit: str) -> tuple[float, float] | None:
@@ -128,7 +128,7 @@ def _ranged(value: Value, sizes: Sizes) -> Value:
 
 def _around(value: Value, sizes: Sizes) -> tuple[float, float]:
     low, high = value.sensible
-    found = (sizes.swing, sizes.swing) if value.unit == "s" else sizes.of_unit(value.unit)
+    found = (sizes.lateness, sizes.lateness) if value.unit == "s" else sizes.of_unit(value.unit)
     if found is None and np.isfinite(value.sensible).all():
         return low, high
     span = 10.0 * max(abs(value.number), found[1] if found else 1.0)

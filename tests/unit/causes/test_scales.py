@@ -67,3 +67,20 @@ def test_every_form_can_be_written(word, scale):
         middle = suspect.grid[len(suspect.grid) // 2]
         atoms = [(size, place) for place in suspect.grid] if suspect.joint else [(size, middle)]
         parse_network(suspect.extend(view.text, atoms), REGISTRY.elements)
+
+
+@pytest.mark.parametrize("form", ["delay", "low-pass of first order"])
+def test_a_delay_is_looked_for_as_long_as_the_test_is_slow(form):
+    """A logger of a slow rig can be late by half a second, which no fast one is."""
+    usual, slow = (ScaledView(1.0, time, 1.0) for time in (1.0, 100.0))
+    found = [
+        next(one for one in REGISTRY.causes["delay"]().suspects(view, view.network) if one.form == form)
+        for view in (usual, slow)
+    ]
+    assert np.array(found[1].grid) == pytest.approx(100.0 * np.array(found[0].grid))
+    late = 0.5
+    strength = late if form == "delay" else 1.0
+    text = found[1].extend(slow.text, [(strength, late)])
+    value = next(slot.value for slot in parse_network(text, REGISTRY.elements).slots() if slot.value.searched)
+    assert value.number == pytest.approx(late)
+    assert value.bounds[1] > late

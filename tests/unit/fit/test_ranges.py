@@ -101,3 +101,13 @@ def test_where_nothing_is_known_a_number_is_searched_around_its_start():
 def test_a_start_outside_its_range_moves_to_the_nearest_end():
     spec = with_ranges(network("it: {element: spring, stiffness: {start: 1e9}}"), natural_sizes(RUNS))
     assert spec.slots()[0].value.number == spec.slots()[0].value.bounds[1] < 1e9
+
+
+@pytest.mark.parametrize("frequency", [0.5, 25.0])
+def test_a_delay_is_searched_over_some_periods_of_the_motion(frequency):
+    """Ten times what a sine of frequency f takes for its amplitude at its RMS speed, sqrt(2) / (2 pi f)."""
+    late = network("it: {element: spring, stiffness: 2 N/mm}", "measurement: {force: {delay: {start: 0 s}}}\n")
+    sizes = natural_sizes([harmonic(1e-3, frequency, 2e5)])
+    (slot,) = [slot for slot in with_ranges(late, sizes).slots() if slot.value.searched]
+    longest = 10.0 * np.sqrt(2.0) / (2.0 * np.pi * frequency)
+    assert slot.value.bounds == pytest.approx((-longest, longest), rel=2e-2)
