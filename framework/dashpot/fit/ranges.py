@@ -19,6 +19,8 @@ from dashpot.model.network import NetworkSpec, Value
 from dashpot.text.quantity import dimensions
 
 BELOW, ABOVE = 1e-4, 30.0
+USUALLY_LATEST = 0.1  # s: amplifiers and filters of test rigs are faster
+LATEST = 4.0  # times that in which a motion goes its half span at its speed
 MOST_OVER_SETTINGS = 10.0  # times its own size a number may change over the settings
 
 
@@ -41,9 +43,10 @@ class Sizes:
     spreads: Mapping[str, float] = field(default_factory=dict)
 
     @property
-    def lateness(self) -> float:
-        """The size of a delay in s: the longest time in which a motion goes its half span at its speed."""
-        return max((run.length / run.speed for run in self.runs), default=self.longest)
+    def latest(self) -> float:
+        """How late a channel may be in s: less than a period of the fastest sine, after which its phase comes round."""
+        fastest = min((run.length / run.speed for run in self.runs), default=0.0)
+        return max(USUALLY_LATEST, LATEST * fastest)
 
     def of_unit(self, unit: str) -> tuple[float, float] | None:
         """The smallest and the largest natural size of this unit; None for a pure number, or where nothing moves."""
@@ -128,10 +131,12 @@ def _ranged(value: Value, sizes: Sizes) -> Value:
 
 def _around(value: Value, sizes: Sizes) -> tuple[float, float]:
     low, high = value.sensible
-    found = (sizes.lateness, sizes.lateness) if value.unit == "s" else sizes.of_unit(value.unit)
+    found = sizes.of_unit(value.unit)
     if found is None and np.isfinite(value.sensible).all():
         return low, high
     span = 10.0 * max(abs(value.number), found[1] if found else 1.0)
+    if value.unit == "s":
+        span = 10.0 * abs(value.number) + sizes.latest
     return max(low, value.number - span), min(high, value.number + span)
 
 
