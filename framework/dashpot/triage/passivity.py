@@ -12,7 +12,7 @@ from dashpot.data.resample import advance
 from dashpot.data.run import Run
 from dashpot.text.quantity import pretty
 from dashpot.triage.agreement import MOSTLY
-from dashpot.triage.energy import giving_back, works_of
+from dashpot.triage.energy import giving_back, runs_that_give_back, works_of
 from dashpot.triage.fault import ENERGY, Fault
 from dashpot.triage.forecast import Sizes, compared, fitted, moments_of_run, swapped
 from dashpot.triage.others import Others, Signals, farthest, missed, signals_of, unlike
@@ -71,15 +71,20 @@ def _all_pull(runs: Sequence[Run], works: Mapping[str, CycleWork]) -> list[str]:
 
 
 def _turned_together(bad: Sequence[Run], sound: Sequence[Run], works: Mapping[str, CycleWork]) -> list[Fault]:
-    """The one fault of most runs: each of them pulls along with its deflection and takes up work if turned round."""
-    # beside some, all others need no more evidence than that they do the same, be it within what a delay explains
-    every = all(works[run.name].mean < 0.0 and _by_itself(run, works[run.name]).kind == "polarity" for run in sound)
-    if len(bad) < FEWEST_TOGETHER or not (every or len(bad) > len(sound)):
+    """The one fault of most runs: each of them pulls along with its deflection and takes up work if turned round.
+
+    Where all runs do, or may, one that gives back work beyond doubt is enough.
+    """
+    each = [*bad, *sound]
+    # beside some, all others need no more evidence than that they may be turned round
+    every = len(each) >= FEWEST_TOGETHER and len(bad) > 0 and not runs_that_give_back([_turned(run) for run in sound])
+    every = every and all(_by_itself(run, works[run.name]).kind == "polarity" for run in sound)
+    if not (every or (len(bad) >= FEWEST_TOGETHER and len(bad) > len(sound))):
         return []
     if any(_by_itself(run, works[run.name]).kind != "polarity" for run in bad):
         return []
     turned = [*bad, *sound] if every else bad
-    shares = [-works[run.name].power_factor for run in turned]
+    shares = [-works[run.name].power_factor for run in bad]
     given = "work is given back over closed cycles" if every else f"{len(bad)} of {len(works)} runs give back work"
     evidence = (
         f"{given}, {min(shares):.1%} to {max(shares):.1%} of what goes to and fro, which no passive specimen does; "
@@ -96,9 +101,10 @@ def _turned_like(turned: Sequence[Fault], runs: Sequence[Run], works: Mapping[st
     others = [run for run in runs if run.name not in works and np.ptp(run.displacement) > 0.0]
     sizes = Sizes.of(like)
     coefficients = fitted([moments_of_run(run, sizes) for run in like])
+    every = named == set(works)
     for run in others:
         gain, likeness = compared(moments_of_run(run, sizes), coefficients)
-        if gain > 0.0 and likeness >= MOSTLY:
+        if (gain > 0.0 and likeness >= MOSTLY) or (every and _pulls(run)):
             yield replace(turned[0], run=run.name)
 
 
@@ -241,6 +247,10 @@ def _least_delay(work: CycleWork) -> float:
 def _longest(run: Run, work: CycleWork) -> int:
     """A quarter of the mean cycle in samples."""
     return int(0.25 * work.period / run.sample_time)
+
+
+def _turned(run: Run) -> Run:
+    return replace(run, channels={**run.channels, "force": -run.force})
 
 
 def _pulls(run: Run) -> bool:

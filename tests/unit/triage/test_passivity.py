@@ -282,6 +282,18 @@ def test_a_sign_that_is_wrong_in_all_runs_is_told_once():
     assert sentence == f"All 7 runs: {problem.message.partition(': ')[2]}. {problem.hint}."
 
 
+def test_one_run_that_gives_back_work_tells_the_sign_of_all_that_pull_as_it_does():
+    """Small motions behind noise are certain of nothing, but all of them pull along with their deflection."""
+    runs = []
+    for k, (a, f) in enumerate([(0.2e-3, 1), (0.2e-3, 2), (0.3e-3, 1), (3e-3, 8)]):
+        x = sine(a, f, 5e-3)
+        runs.append(run(f"r{k}", x, -(1e5 * x + 250.0 * np.gradient(x, STEP)), 3.0, k))
+    found = examine(Dataset("made", tuple(runs)))
+    assert {fault.run: (fault.kind, fault.factor) for fault in found.faults} == {
+        f"r{k}": ("polarity", -1.0) for k in range(4)
+    }
+
+
 def test_what_many_runs_have_alike_is_told_of_the_first():
     faults = [Fault(f"r{k}", "unit", f"its force is {k + 2} times too large", "Correct the 'unit'") for k in range(3)]
     other = Fault("r9", "delay", "its force is late", "Write its 'delay'")
