@@ -20,7 +20,7 @@ from dashpot.text.quantity import dimensions
 
 BELOW, ABOVE = 1e-4, 30.0
 USUALLY_LATEST = 0.1  # s: amplifiers and filters of test rigs are faster
-LATEST = 4.0  # times that in which a motion goes its half span at its speed
+LATEST = 4.0  # times that in which a motion goes its half span at its speed: nine tenths of the period of a sine
 MOST_OVER_SETTINGS = 10.0  # times its own size a number may change over the settings
 
 
@@ -134,9 +134,10 @@ def _around(value: Value, sizes: Sizes) -> tuple[float, float]:
     found = sizes.of_unit(value.unit)
     if found is None and np.isfinite(value.sensible).all():
         return low, high
-    span = 10.0 * max(abs(value.number), found[1] if found else 1.0)
-    if value.unit == "s":
+    if value.unit == "s":  # how late a channel is
         span = 10.0 * abs(value.number) + sizes.latest
+    else:
+        span = 10.0 * max(abs(value.number), found[1] if found else 1.0)
     return max(low, value.number - span), min(high, value.number + span)
 
 

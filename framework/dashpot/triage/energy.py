@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -47,6 +48,11 @@ def giving_back(runs: Sequence[Run], works: Mapping[str, CycleWork]) -> frozense
         if scatter == 0.0 or stdtr(freedom, below / scatter) < 1.0 / (ONE_IN * len(judged)):
             found.append(run.name)
     return frozenset(found)
+
+
+def turned(run: Run) -> Run:
+    """A run with its force turned round."""
+    return replace(run, channels={**run.channels, "force": -run.force})
 
 
 def delay_of(run: Run) -> float:

@@ -1,4 +1,4 @@
-"""What sound runs foretell of another one, and how far it may be from that by chance.
+"""What sound runs predict of another one, and how far it may be from that by chance.
 
 Where they have been, all functions of the forecast tell; beyond, a polynomial may go anywhere, and only the plain
 functions do, which know the course of a force but not its size.
@@ -53,7 +53,7 @@ class Forecast:
 
 @dataclass(frozen=True, eq=False)
 class Others:
-    """Sound runs, where they have been (m), and what they foretell there and beyond."""
+    """Sound runs, where they have been (m), and what they predict there and beyond."""
 
     sizes: Sizes
     low: float
@@ -63,7 +63,7 @@ class Others:
 
     @classmethod
     def of(cls, runs: Sequence[Run], signals: Iterable[Signals] | None = None) -> Others:
-        """What ``runs`` foretell, by their ``signals`` where these are not as they were measured."""
+        """What ``runs`` predict, by their ``signals`` where these are not as they were measured."""
         sizes = Sizes.of(runs)
         moments = [moments_of(*each, sizes) for each in signals or map(signals_of, runs)]
         low = min(float(np.min(run.displacement)) for run in runs)
@@ -79,11 +79,11 @@ class Others:
         return self.there if self.know(x) else self.beyond
 
     def apart(self, signals: Signals, measure: Measure) -> float:
-        """How far a run with such signals is from what they foretell."""
+        """How far a run with such signals is from what they predict."""
         return measure(*self.forecast(signals[0]).compare(moments_of(*signals, self.sizes)))
 
     def course(self, run: Run) -> Seen:
-        """A run beside what they foretell by the plain functions."""
+        """A run beside what they predict by the plain functions."""
         return self.beyond.compare(moments_of(*signals_of(run), self.sizes))
 
 

@@ -12,7 +12,7 @@ from dashpot.data.resample import advance
 from dashpot.data.run import Run
 from dashpot.text.quantity import pretty
 from dashpot.triage.agreement import MOSTLY
-from dashpot.triage.energy import giving_back, runs_that_give_back, works_of
+from dashpot.triage.energy import giving_back, runs_that_give_back, turned, works_of
 from dashpot.triage.fault import ENERGY, Fault
 from dashpot.triage.forecast import Sizes, compared, fitted, moments_of_run, swapped
 from dashpot.triage.others import Others, Signals, farthest, missed, signals_of, unlike
@@ -75,15 +75,12 @@ def _turned_together(bad: Sequence[Run], sound: Sequence[Run], works: Mapping[st
 
     Where all runs do, or may, one that gives back work beyond doubt is enough.
     """
-    each = [*bad, *sound]
-    # beside some, all others need no more evidence than that they may be turned round
-    every = len(each) >= FEWEST_TOGETHER and len(bad) > 0 and not runs_that_give_back([_turned(run) for run in sound])
-    every = every and all(_by_itself(run, works[run.name]).kind == "polarity" for run in sound)
+    every = len(bad) > 0 and len(bad) + len(sound) >= FEWEST_TOGETHER and _may_be_turned(sound, works)
     if not (every or (len(bad) >= FEWEST_TOGETHER and len(bad) > len(sound))):
         return []
     if any(_by_itself(run, works[run.name]).kind != "polarity" for run in bad):
         return []
-    turned = [*bad, *sound] if every else bad
+    wrong = [*bad, *sound] if every else bad
     shares = [-works[run.name].power_factor for run in bad]
     given = "work is given back over closed cycles" if every else f"{len(bad)} of {len(works)} runs give back work"
     evidence = (
@@ -91,12 +88,18 @@ def _turned_together(bad: Sequence[Run], sound: Sequence[Run], works: Mapping[st
         f"with the force turned round it is taken up: the force of {'all' if every else 'most'} runs has the wrong sign"
     )
     cure = f"Write 'sign: -1' under the force channel of {'all' if every else 'these'} runs"
-    return [Fault(run.name, "polarity", evidence, cure, -1.0, evidence_of=ENERGY) for run in turned]
+    return [Fault(run.name, "polarity", evidence, cure, -1.0, evidence_of=ENERGY) for run in wrong]
 
 
-def _turned_like(turned: Sequence[Fault], runs: Sequence[Run], works: Mapping[str, CycleWork]) -> Iterator[Fault]:
+def _may_be_turned(runs: Sequence[Run], works: Mapping[str, CycleWork]) -> bool:
+    """Whether each of some runs pulls along with its deflection, and none would give back work if it were turned."""
+    pull = all(_by_itself(run, works[run.name]).kind == "polarity" for run in runs)
+    return pull and not runs_that_give_back([turned(run) for run in runs])
+
+
+def _turned_like(known: Sequence[Fault], runs: Sequence[Run], works: Mapping[str, CycleWork]) -> Iterator[Fault]:
     """The same fault of each run without closed cycles whose force goes the way of the turned ones, as measured."""
-    named = {fault.run for fault in turned}
+    named = {fault.run for fault in known}
     like = [run for run in runs if run.name in named]
     others = [run for run in runs if run.name not in works and np.ptp(run.displacement) > 0.0]
     sizes = Sizes.of(like)
@@ -105,7 +108,7 @@ def _turned_like(turned: Sequence[Fault], runs: Sequence[Run], works: Mapping[st
     for run in others:
         gain, likeness = compared(moments_of_run(run, sizes), coefficients)
         if (gain > 0.0 and likeness >= MOSTLY) or (every and _pulls(run)):
-            yield replace(turned[0], run=run.name)
+            yield replace(known[0], run=run.name)
 
 
 def _common_delay(bad: Sequence[Run], sound: Sequence[Run], works: Mapping[str, CycleWork]) -> float | None:
@@ -113,7 +116,8 @@ def _common_delay(bad: Sequence[Run], sound: Sequence[Run], works: Mapping[str, 
 
     Which of them give it back is a matter of stiffness and loss then, as of one preload, and no fault of theirs. The
     others have to predict them, all forces taken earlier, as well as they predict each other, and better than if these
-    runs alone were late; where there are no others, each of these has to be late by itself.
+    runs alone were late; where they have not been, the course of the force alone. Where there are no others, each of
+    these has to be late by itself.
     """
     if len(bad) < FEWEST_TOGETHER or 0 < len(sound) < FEWEST_OTHERS:
         return None
@@ -247,10 +251,6 @@ def _least_delay(work: CycleWork) -> float:
 def _longest(run: Run, work: CycleWork) -> int:
     """A quarter of the mean cycle in samples."""
     return int(0.25 * work.period / run.sample_time)
-
-
-def _turned(run: Run) -> Run:
-    return replace(run, channels={**run.channels, "force": -run.force})
 
 
 def _pulls(run: Run) -> bool:

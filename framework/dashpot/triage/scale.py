@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -19,7 +19,7 @@ from dashpot.data.run import Run
 from dashpot.text.quantity import pretty
 from dashpot.triage.agreement import ACCURACY, FEWEST, MOSTLY, Agreement, find_agreement
 from dashpot.triage.conditions import FRICTION, change_by_conditions, ratios
-from dashpot.triage.energy import runs_that_give_back
+from dashpot.triage.energy import runs_that_give_back, turned
 from dashpot.triage.fault import OTHER_RUNS, Fault
 from dashpot.triage.forecast import Moments, Sizes, moments_of, moments_of_run, rate_of, swapped
 from dashpot.triage.others import Others
@@ -160,8 +160,7 @@ def _fault_of(run: Run, known: Agreement, inside: Sequence[Run], sizes: Sizes, l
 
 def _gives_back_if_turned(run: Run, others: Sequence[Run]) -> bool:
     """Whether a run with its force turned round gives back work: what pushes against its deflection is a mass then."""
-    turned = replace(run, channels={**run.channels, "force": -run.force})
-    return run.name in runs_that_give_back([*others, turned])
+    return run.name in runs_that_give_back([*others, turned(run)])
 
 
 def _swaps(run: Run, known: Agreement, sizes: Sizes, nearest: float) -> bool:
