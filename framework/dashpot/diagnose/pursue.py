@@ -23,7 +23,7 @@ from dashpot.diagnose.odds import NUMBER_ODDS, Odds
 from dashpot.diagnose.pursuit import NAMED, Form, Pursuit, Scored, Without
 from dashpot.diagnose.score import Added, Scores, Structure
 from dashpot.diagnose.search import other_forms, search
-from dashpot.diagnose.term import Model, Term, renamed
+from dashpot.diagnose.term import Model, Term, each_part_gone, renamed
 from dashpot.diagnose.trials import Trials, scored_by
 from dashpot.kernel.workers import forked
 
@@ -207,9 +207,32 @@ class Pursuer:
             found = self._without(look, present, [(term,) for term in present.model.causes], odds)
             rest = [self._of_its_name(look, one.scored, odds) for one in found]
             worth = [self._worth(seen, one.terms[0], present, left) for one, left in zip(found, rest, strict=True)]
-            if min(worth, default=1.0) >= NAMED:
+            if min(worth, default=1.0) < NAMED:
+                present = min(zip(worth, rest, strict=True), key=_weakness)[1]
+                continue
+            fewer = self._fewer_parts(look, present, odds)
+            if fewer is present:
                 return present, self._without_causes(look, present, odds, found)
-            present = min(zip(worth, rest, strict=True), key=_weakness)[1]
+            present = fewer
+
+    def _fewer_parts(self, look: Look, present: Scored, odds: Odds) -> Scored:
+        """The structure without the parts of its terms that are not worth their place, the weakest first.
+
+        A part stays without which its term would not be what it is called.
+        """
+        at = self.trials
+
+        def refitted(less: Model) -> Scored:
+            return at.scored(look, at.refitted_under(look, less), odds)
+
+        while True:
+            less = each_part_gone(present.model)
+            trials = forked(refitted, less, at.refitter.jobs, [term for one in less for term in one.terms])
+            worth = [(self._share_worse(present, one), one) for one in trials if not renamed(one.model)]
+            weakest = min(worth, key=_weakness, default=(1.0, present))
+            if weakest[0] >= NAMED:
+                return present
+            present = weakest[1]
 
     def _of_its_name(self, look: Look, without: Scored, odds: Odds) -> Scored:
         """A structure from which a term has gone, without those that are not what they are called without it."""
@@ -269,6 +292,10 @@ class Pursuer:
         shown = is_determined(seen, number) and has_evidence(self.trials.refitter, seen, number)
         if not (shown and term.admits(present.model.numbers_of(number))):
             return 0.0
+        return self._share_worse(present, without)
+
+    def _share_worse(self, present: Scored, without: Scored) -> float:
+        """The share of draws in which a structure predicts worse ``without`` something; 0 where it does not matter."""
         weights = self.weights(present.samples.size)
         worse = without.drawn_exactly(weights) > present.drawn_exactly(weights)
         return float(np.mean(worse)) if self._matters(present, without) else 0.0

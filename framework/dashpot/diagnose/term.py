@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -231,6 +231,27 @@ def without_term(model: Model, number: int) -> NetworkSpec | None:
     others = (set(other) for k, other in enumerate(model.owned) if k != number)
     alone = all(other <= gone or not other & gone for other in others)  # a dependence is written as a whole
     return rest if alone and owned <= gone and not _refers(rest, going) else None
+
+
+def each_part_gone(model: Model) -> list[Model]:
+    """A fitted structure without each part of those of its terms that have several, to be refitted.
+
+    All other numbers are as they are. A part is a branch: terms whose parts share branches keep them.
+    """
+    found = []
+    for number, (term, owned) in enumerate(zip(model.terms, model.owned, strict=True)):
+        parts = list(dict.fromkeys(path.rpartition(".")[0] for path in owned))
+        if isinstance(term, Term) and len(parts) == len(term.atoms) > 1:
+            for k, part in enumerate(parts):
+                less = replace(term, atoms=term.atoms[:k] + term.atoms[k + 1 :])
+                left = tuple(path for path in owned if path.rpartition(".")[0] != part)
+                terms, rest = _with(model.terms, number, less), _with(model.owned, number, left)
+                found.append(replace(model, terms=terms, owned=rest))
+    return found
+
+
+def _with(each: tuple[Any, ...], number: int, one: object) -> tuple[Any, ...]:
+    return (*each[:number], one, *each[number + 1 :])
 
 
 def _is_own(branch: Branch, owned: set[str]) -> bool:
