@@ -1,7 +1,8 @@
-"""Causes that are let go at the end: what stands only beside another one does not fall with it."""
+"""Causes and parts of causes that are let go at the end; what stands only beside another one does not fall with it."""
 
 from __future__ import annotations
 
+import pytest
 from unit.diagnose.rig import Made, bench, dataset, friction, plain
 
 from dashpot.contract.cause import added_branch
@@ -15,17 +16,18 @@ UNITS = {"stiffness": "N/m", "limit": "N"}
 SOFT, STIFF = 0.4e-3, 0.05e-3  # m, yield travel
 
 
-def slider(name, travel):
-    """The cause that a slider of less than 30 N is missing: one that carries more is no such slider."""
+def slider(name, *travels, admits=lambda numbers: numbers["limit"] < 30.0):
+    """The cause that sliders of less than 30 N are missing: one that carries more is no such slider."""
 
     def suspects(self, view, network):
         yield added_branch(
             "prandtl",
             name,
-            (travel,),
+            travels,
             lambda limit, travel: {"stiffness": limit / travel, "limit": limit},
             UNITS,
-            admits=lambda numbers: numbers["limit"] < 30.0,
+            most=len(travels),
+            admits=admits,
         )
 
     return type("Slider", (Made,), {"word": name, "suspects": suspects})
@@ -48,3 +50,37 @@ def test_a_cause_without_which_another_one_loses_its_name_is_worth_what_both_are
     assert present.model.names == (("soft", ""), ("stiff", ""))
     single = [one.scored.exact_score - present.exact_score for one in without]
     assert all(0.0 < cost < float(look.samples.sum()) for cost in single)
+
+
+def pruned(law, cause, *added):
+    """What is left of a structure with the ``added`` parts, and the look at it."""
+    made = bench(dataset(law))
+    folds = folds_of(made.refitter.runs, made.groups)
+    scores = Scores(look_at(made.refitter, made.model, [cause], folds))
+    structure = Structure(added=frozenset(added))
+    model = made.refitter.refit(made.model, terms_of(scores, structure), scores.look.noise, scores.moves(structure))
+    look = look_at(made.refitter, model, [cause], folds)
+    return Pursuer(Trials(made.refitter, folds), [cause], relevance=0.0015, seed=0).pruned(look)[0].model
+
+
+@pytest.mark.parametrize("limits, parts", [((20.0, 0.0), 1), ((0.0, 20.0), 1), ((20.0, 20.0), 2)])
+def test_a_part_stays_that_the_data_need(limits, parts):
+    """Begun with two sliders, where one or two act; what is left has the limit of those that act."""
+    acting = [(limit, travel) for limit, travel in zip(limits, (SOFT, STIFF), strict=True) if limit]
+
+    def law(motion):
+        return plain(motion) + sum(friction(motion, limit, travel) for limit, travel in acting)
+
+    any_limit = slider("sliders", SOFT, STIFF, admits=lambda numbers: True)
+    model = pruned(law, any_limit, Added(0, (0, 1)))
+    [term] = model.causes
+    assert len(term.atoms) == parts
+    found = [value for word, value in model.numbers_of(len(model.terms) - 1).items() if word.startswith("limit")]
+    assert sorted(found) == pytest.approx(sorted(limit for limit, _ in acting), rel=0.2)
+
+
+def test_a_part_stays_without_which_its_term_is_not_what_it_is_called():
+    """A cause of two sliders: one of them does nothing here, but a single one is not this cause."""
+    two = slider("pair", SOFT, STIFF, admits=lambda numbers: "limit_2" in numbers)
+    model = pruned(lambda motion: plain(motion) + friction(motion, 20.0, SOFT), two, Added(0, (0, 1)))
+    assert [len(term.atoms) for term in model.causes] == [2]
