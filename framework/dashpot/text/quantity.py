@@ -105,10 +105,20 @@ _RIG_UNITS = (
 _PER_SETTING = {"/Pa": "/bar"}
 
 # special hints for what is easily confused: (unit written, dimension wanted)
+_ARCS = (("rad", "1"), ("mrad", "0.001"), ("deg", "0.0174533"), ("°", "0.0174533"))
+_MOMENTS = (("N*m", "N"), ("Nm", "N"), ("kN*m", "kN"), ("kNm", "kN"), ("N*mm", "mN"), ("Nmm", "mN"))
 _CONFUSED = {
     ("g", "m/s^2"): "multiples of gravity are written g0",
     ("lb", "N"): "a pound of force is written lbf",
     ("rad/s", "Hz"): "frequencies are in Hz: divide by 2*pi",
+    **{
+        (angle, "m"): f"of a test in torsion write the arc on a lever of 1 m: 'unit: m, gain: {gain}'"
+        for angle, gain in _ARCS
+    },
+    **{
+        (moment, "N"): f"of a test in torsion write the force on a lever of 1 m: 'unit: {force}'"
+        for moment, force in _MOMENTS
+    },
 }
 
 

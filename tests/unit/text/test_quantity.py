@@ -84,6 +84,8 @@ def test_a_quantity_becomes_an_si_number(text, unit, value):
         ("10 rad/s", "Hz", "divide by 2*pi"),
         ("3 g", "m/s^2", "written g0"),
         ("3 lb", "N", "written lbf"),
+        ("5 deg", "m", "on a lever of 1 m: 'unit: m, gain: 0.0174533'"),
+        ("5 kN*m", "N", "on a lever of 1 m: 'unit: kN'"),
         ("1e999 m", "m", "expected a finite number"),
         (math.nan, "m", "expected a finite number"),
         (True, "m", "expected a quantity in m, got 'True'"),
