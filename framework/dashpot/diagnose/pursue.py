@@ -216,9 +216,10 @@ class Pursuer:
             present = fewer
 
     def _fewer_parts(self, look: Look, present: Scored, odds: Odds) -> Scored:
-        """The structure without the parts of its terms that are not worth their place, the weakest first.
+        """The structure without the parts of its terms that it predicts as well without, one after the other.
 
-        A part stays without which its term would not be what it is called.
+        Nobody calls a part by a name: it has the prior odds of its numbers only. A part stays without which its term
+        would not be what it is called.
         """
         at = self.trials
 
@@ -228,11 +229,14 @@ class Pursuer:
         while True:
             less = each_part_gone(present.model)
             trials = forked(refitted, less, at.refitter.jobs, [term for one in less for term in one.terms])
-            worth = [(self._share_worse(present, one), one) for one in trials if not renamed(one.model)]
-            weakest = min(worth, key=_weakness, default=(1.0, present))
-            if weakest[0] >= NAMED:
+            spare = [one for one in trials if self._is_spare(present, one) and not renamed(one.model)]
+            if not spare:
                 return present
-            present = weakest[1]
+            present = min(spare, key=lambda one: one.exact_score)
+
+    def _is_spare(self, present: Scored, without: Scored) -> bool:
+        """Whether a structure predicts as well ``without`` a part, or its error grows by nothing of interest."""
+        return self._predicts_better(without, present) or not self._matters(present, without)
 
     def _of_its_name(self, look: Look, without: Scored, odds: Odds) -> Scored:
         """A structure from which a term has gone, without those that are not what they are called without it."""
@@ -292,10 +296,6 @@ class Pursuer:
         shown = is_determined(seen, number) and has_evidence(self.trials.refitter, seen, number)
         if not (shown and term.admits(present.model.numbers_of(number))):
             return 0.0
-        return self._share_worse(present, without)
-
-    def _share_worse(self, present: Scored, without: Scored) -> float:
-        """The share of draws in which a structure predicts worse ``without`` something; 0 where it does not matter."""
         weights = self.weights(present.samples.size)
         worse = without.drawn_exactly(weights) > present.drawn_exactly(weights)
         return float(np.mean(worse)) if self._matters(present, without) else 0.0
