@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from dashpot.contract.cause import Atom, Suspect, View, branch_lines, free_name
+from dashpot.contract.cause import NOTHING, Atom, Suspect, View, branch_lines, free_name
 from dashpot.data.drive import drive_from_path
 from dashpot.kernel.spline import slopes
 from dashpot.model.network import Branch, Characteristic, Group, NetworkSpec
@@ -20,6 +20,10 @@ UNITS = {"share": "1", "relaxation_time": "s", "time": "s"}
 PLACES = 8
 STEPS = 50
 DIGITS = 8
+LOSS = (
+    1e-3,
+    10.0,
+)  # tangent of the loss angle at the end of the driven band: where a damping over stiffness is searched
 
 
 def relaxing(view: View, network: NetworkSpec, fastest: float) -> Iterator[Suspect]:
@@ -45,7 +49,8 @@ def damped(view: View, network: NetworkSpec, straight: float) -> Iterator[Suspec
     Bent is what has a least slope of less than ``straight`` times the largest one.
     """
     for spring in _bent_springs(network):
-        law = _Damped(spring)
+        turn = 1.0 / (2.0 * np.pi * view.highest_frequency)
+        law = _Damped(spring, (LOSS[0] * turn, LOSS[1] * turn))
         steepness = spring.steepness(view)
         if not steepness.min() < straight * steepness.max():
             continue
@@ -91,9 +96,16 @@ class _Spring:
         alone = compile_network(NetworkSpec("alone", Group("", "parallel", (self.branch,))))
         return np.atleast_1d(alone.along(drive_from_path(dt, x, v, np.gradient(v, dt)))())
 
-    def beside(self, text: str, branch: str, element: str, numbers: Mapping[str, float]) -> str:
+    def beside(
+        self,
+        text: str,
+        branch: str,
+        element: str,
+        numbers: Mapping[str, float],
+        bounds: Mapping[str, tuple[float, float]] = NOTHING,
+    ) -> str:
         """The network with a branch of an element that has the same curve as it is, and numbers."""
-        lines = branch_lines(free_name(text, branch), element, numbers, UNITS)
+        lines = branch_lines(free_name(text, branch), element, numbers, UNITS, bounds=bounds)
         return add_branch(text, f"{lines}\n  stiffness: {self._written()}")
 
     def _written(self) -> str:
@@ -128,6 +140,7 @@ class _Relaxing:
 @dataclass(frozen=True)
 class _Damped:
     spring: _Spring
+    times: tuple[float, float]
 
     def columns(self, view: View, run: str) -> Array:
         """The rate (1, n) in N/s at which the force of the spring changes."""
@@ -135,4 +148,7 @@ class _Damped:
 
     def extend(self, text: str, atoms: Sequence[Atom]) -> str:
         """The network with the branch."""
-        return self.spring.beside(text, "preload_dependent_damping", "proportional_damper", {"time": atoms[0][0]})
+        numbers = {"time": float(np.clip(atoms[0][0], *self.times))}
+        return self.spring.beside(
+            text, "preload_dependent_damping", "proportional_damper", numbers, {"time": self.times}
+        )

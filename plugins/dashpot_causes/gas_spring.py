@@ -13,6 +13,7 @@ from dashpot.model.network import NetworkSpec
 UNITS = {"force": "N", "length": "m", "exponent": "1", "time": "s"}
 COLUMNS = (1.15, 1.3, 1.7, 2.5, 5.0)  # over the deflection up to which gas is squeezed
 TIMES = (0.1, 1.0, 10.0, 100.0)  # of 1/w at the end of the band
+HEAT = 0.01  # s: 1.5 mm of gas at ambient pressure; of more gas, or denser, the exchange of heat takes longer
 POLYTROPE = (1.0, 1.7)  # from constant temperature to a gas of single atoms that keeps its heat
 LEAST = 1.02  # of the largest deflection: the column may not be squeezed to nothing
 
@@ -44,7 +45,8 @@ class GasSpring(Cause):
             form="a column of gas",
         )
         turn = 1.0 / (2.0 * np.pi * view.highest_frequency)
-        places = list(product(lengths, [share * turn for share in TIMES]))
+        times = sorted({max(share * turn, 2.0 * HEAT) for share in TIMES})
+        places = list(product(lengths, times))
         yield added_branch(
             "warm_gas_spring",
             "gas_spring",
@@ -53,5 +55,6 @@ class GasSpring(Cause):
             UNITS,
             unknowns=2,
             bounds={"length": (LEAST * squeezed, 100.0 * squeezed)},
+            admits=lambda numbers: numbers["time"] >= HEAT,
             form="a column of gas that exchanges heat",
         )

@@ -455,7 +455,7 @@ FURTHER = {
     "force turned round": ("friction", Case(friction, fault={"a3_p5": np.negative})),
     "force in pounds": (
         "gain",
-        replace(CASES["setting_dependence"], fault={"a3_p5": lambda force: force / 4.4482216}),
+        replace(CASES["setting_dependence"], fault={"a3_p8": lambda force: force / 4.4482216}),
     ),
     "displacement in inches": ("bedding_in", in_another_unit(CASES["bedding_in"], FIRST, 1.0 / 25.4)),
     "displacement in micrometres": ("heating", in_another_unit(CASES["heating"], THIRD, 1e3)),
