@@ -166,6 +166,11 @@ USUAL_POWERS: dict[str, dict[str, float]] = {
     "m/N": {"[mass]": -1.0, "[time]": 2.0},
     "N*s/m": {"[mass]": 1.0, "[time]": -1.0},
     "N/(m/s)": {"[mass]": 1.0, "[time]": -1.0},
+    "N*s^2/m^2": {"[mass]": 1.0, "[length]": -1.0},
+    "J": {"[mass]": 1.0, "[length]": 2.0, "[time]": -2.0},
+    "W": {"[mass]": 1.0, "[length]": 2.0, "[time]": -3.0},
+    "m^2/s": {"[length]": 2.0, "[time]": -1.0},
+    "s/m": {"[length]": -1.0, "[time]": 1.0},
 }
 USUAL_POWERS |= {given: USUAL_POWERS[wanted] for given, wanted in USUAL if wanted in USUAL_POWERS}
 
