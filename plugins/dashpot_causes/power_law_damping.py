@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
+from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
 
-from dashpot.contract.cause import Atom, Cause, Suspect, View, branch_lines, free_name
+from dashpot.contract.cause import Atom, Cause, Suspect, View, added_branch, branch_lines, free_name
 from dashpot.model.network import NetworkSpec
 from dashpot.model.patch import add_branch
 from dashpot.text.quantity import pretty
@@ -15,11 +17,13 @@ from dashpot_causes.levelling import levelling_force
 from dashpot_causes.powers import NEARLY_ONE, NEARLY_TWO, reference_speed
 
 Array = NDArray[np.float64]
-UNITS = {"force": "N", "exponent": "1", "reference": "m/s"}
+UNITS = {"force": "N", "exponent": "1", "reference": "m/s", "knee": "1"}
 DIGRESSIVE = (0.3, 0.4, 0.5, 0.6, 0.7, 0.8)
 PROGRESSIVE = (1.2, 1.4, 1.6, 2.5, 3.0)
 BOUNDS = ((0.2, NEARLY_ONE[0]), (NEARLY_ONE[1], NEARLY_TWO[0]), (NEARLY_TWO[1], 4.0))
 AT_END = 0.01  # of the exponent
+THINNING, KNEES = (0.25, 0.45, 0.65), (0.02, 0.05, 0.12, 0.3)  # powers of the velocity; of the largest one
+KNEE = (0.015, 1.0)  # of the largest speed: a knee that the data show
 LEVELLING, LEVELS = (0.02, 0.5), 5  # of the speed: where a digressive damper becomes level
 
 
@@ -40,7 +44,7 @@ class PowerLawDamping(Cause):
     }
 
     def suspects(self, view: View, network: NetworkSpec) -> Iterable[Suspect]:
-        """One dashpot with a power of the velocity; one whose force becomes level."""
+        """One dashpot with a power of the velocity; one from a knee on; one whose force becomes level."""
         reference = reference_speed(view)
         grid = DIGRESSIVE + PROGRESSIVE
 
@@ -70,7 +74,32 @@ class PowerLawDamping(Cause):
             admits=is_broken_power,
             of_motion=True,
         )
+        yield _thinning(view, reference)
         yield levelling_force(view, "digressive_damping", LEVELLING, LEVELS, (0.75, 4.0), "digressive damping")
+
+
+def _thinning(view: View, reference: float) -> Suspect:
+    """The suspect of a dashpot that follows a power of the velocity from a knee on."""
+    places = [(power, knee * view.speed / reference) for power, knee in product(THINNING, KNEES)]
+
+    def values(force: float, number: float) -> dict[str, float]:
+        exponent, knee = places[int(number)]
+        return {"force": force, "exponent": exponent, "reference": reference, "knee": knee}
+
+    knees = (KNEE[0] * view.speed / reference, KNEE[1] * view.speed / reference)
+    suspect = added_branch(
+        "power_law_damper",
+        "power_law_damping",
+        tuple(float(number) for number in range(len(places))),
+        values,
+        UNITS,
+        unknowns=2,
+        fixed=("reference",),
+        bounds={"exponent": BOUNDS[0], "knee": knees},
+        admits=is_broken_power,
+        form="a power of the velocity from a knee on",
+    )
+    return replace(suspect, about="damping that thins with velocity")
 
 
 def is_broken_power(numbers: Mapping[str, float]) -> bool:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from scipy.special import dawsn, gamma
+from scipy.special import dawsn, gamma, hyp2f1
 from verification.alone import dynamic_stiffness, last_cycle
 
 
@@ -128,6 +128,19 @@ def test_a_power_law_damper_has_the_equivalent_damping_of_a_sine(exponent):
     shape = 2.0 / np.sqrt(np.pi) * gamma(0.5 * exponent + 1.0) / gamma(0.5 * exponent + 1.5)
     ratio = 2.0 * np.pi * frequency * amplitude / 0.1
     assert b[0] == pytest.approx(80.0 * ratio**exponent * shape, rel=2e-4)
+    assert np.abs(a).max() < 1e-9 * b[0]
+
+
+@pytest.mark.parametrize("knee", [0.1, 0.6, 4.0])
+@pytest.mark.parametrize("exponent", [0.2, 0.5, 1.7, 3.0])
+def test_a_fluid_that_thins_has_the_equivalent_damping_of_a_sine(exponent, knee):
+    amplitude, frequency = 5e-3, 5.0
+    numbers = {"force": 80.0, "exponent": exponent, "knee": knee}
+    _, a, b = harmonics("power_law_damper", amplitude, frequency, 1, 20_000, **numbers)
+    # mean of 2 cos^2 (1 + (r/knee cos)^2)^((n - 1)/2)
+    ratio = 2.0 * np.pi * frequency * amplitude / 0.1
+    shape = hyp2f1(0.5 - 0.5 * exponent, 1.5, 2.0, -((ratio / knee) ** 2))
+    assert b[0] == pytest.approx(80.0 * ratio * knee ** (exponent - 1.0) * shape, rel=1e-6)
     assert np.abs(a).max() < 1e-9 * b[0]
 
 

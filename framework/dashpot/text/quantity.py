@@ -105,20 +105,13 @@ _RIG_UNITS = (
 _PER_SETTING = {"/Pa": "/bar"}
 
 # special hints for what is easily confused: (unit written, dimension wanted)
-_ARCS = (("rad", "1"), ("mrad", "0.001"), ("deg", "0.0174533"), ("°", "0.0174533"))
-_MOMENTS = (("N*m", "N"), ("Nm", "N"), ("kN*m", "kN"), ("kNm", "kN"), ("N*mm", "mN"), ("Nmm", "mN"))
+_TORSION = "a test in torsion is written on a lever of 1 m: 'unit: m, gain: 0.0174533' for degrees, 'unit: N' for N*m"
 _CONFUSED = {
     ("g", "m/s^2"): "multiples of gravity are written g0",
     ("lb", "N"): "a pound of force is written lbf",
     ("rad/s", "Hz"): "frequencies are in Hz: divide by 2*pi",
-    **{
-        (angle, "m"): f"of a test in torsion write the arc on a lever of 1 m: 'unit: m, gain: {gain}'"
-        for angle, gain in _ARCS
-    },
-    **{
-        (moment, "N"): f"of a test in torsion write the force on a lever of 1 m: 'unit: {force}'"
-        for moment, force in _MOMENTS
-    },
+    **dict.fromkeys([(angle, "m") for angle in ("rad", "mrad", "deg", "°")], _TORSION),
+    **dict.fromkeys([(moment, "N") for moment in ("N*m", "Nm", "kN*m", "kNm", "N*mm", "Nmm")], _TORSION),
 }
 
 

@@ -436,6 +436,10 @@ FURTHER = {
         "quadratic_damping",
         replace(CASES["quadratic_damping"], motions=NOISY, settings=BEGIN, kind="random"),
     ),
+    "a fluid that thins": (  # after Cross, not Carreau
+        "power_law_damping",
+        Case(lambda m: 2500.0 * m.v() / (1.0 + (np.abs(m.v()) / 0.02) ** 0.7)),
+    ),
     "sines": ("friction", Case(friction, motions=SINES, settings=BEGIN, kind="harmonic")),
     "curve of a slow loop": (
         "relaxation",
