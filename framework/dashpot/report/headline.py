@@ -244,13 +244,17 @@ def _hidden(titles: Sequence[str]) -> str:
 
 def _partly_explained(diagnosis: Json, errors: Errors) -> str:
     causes = likely_causes(diagnosis)
-    left = f"{quantity(errors.after, 'N')} remain unexplained"
-    if errors.floor and errors.after is not None:
-        left += f", {above_floor(errors.after, errors.floor)}"
+    left = _remaining(errors, " unexplained")
     departs = _departs(diagnosis)
     only = "only " if errors.gain is not None and 0.0 < errors.gain <= MOST and not departs else ""
     named = only + _part(errors.gain, causes, errors.runs) if causes else "it is only partly explained"
     return f"{error_phrase(errors)}; {named}; {departs or left}{_stands_in(causes)}{_leftover(diagnosis)}."
+
+
+def _remaining(errors: Errors, how: str = "") -> str:
+    """The error with all causes that are told, beside the noise floor."""
+    beside = f", {above_floor(errors.after, errors.floor)}" if errors.floor and errors.after is not None else ""
+    return f"{quantity(errors.after, 'N')} remain{how}{beside}"
 
 
 def _stands_in(causes: list[Json]) -> str:
@@ -264,7 +268,7 @@ def _unexplained(diagnosis: Json, errors: Errors) -> str:
     if (departs := _departs(diagnosis)) and not diagnosis["causes"]:
         missing = f"{departs}, in which nothing is missing"
     alike = [or_rivals(cause) for cause in diagnosis["causes"] if may_be(cause)]
-    left = f", with which {quantity(errors.after, 'N')} remain" if errors.after is not None else ""
+    left = f", with which {_remaining(errors)}" if errors.after is not None else ""
     told = f"it resembles {listed(alike)}" if alike else UNKNOWN
     resembled = f"; {told}{left}" if diagnosis["causes"] else ""
     return f"{error_phrase(errors)}: {missing}{resembled}{_leftover(diagnosis)}."

@@ -157,10 +157,14 @@ def test_unexplained_tells_what_it_resembles_and_does_not_guess():
     said = headline(diagnosis(verdict="unexplained", causes=[]))
     assert said.endswith("something is missing in the model, and no known cause fits it.")
     said = headline(diagnosis(verdict="unexplained", causes=[relaxation(accepted=False)]))
-    assert said.endswith("no known cause fits it; it resembles relaxation, with which 14.6 N remain.")
+    assert said.endswith(
+        "no known cause fits it; it resembles relaxation, with which 14.6 N remain, 1.0 × the noise floor."
+    )
     rival = relaxation(accepted=False, indistinguishable_from=["creep"])
     said = headline(diagnosis(verdict="unexplained", causes=[rival]))
-    assert said.endswith("no known cause fits it; it resembles relaxation or creep, with which 14.6 N remain.")
+    assert said.endswith(
+        "no known cause fits it; it resembles relaxation or creep, with which 14.6 N remain, 1.0 × the noise floor."
+    )
 
 
 def test_what_an_unexplained_error_resembles_is_numbered_where_it_has_rivals():
@@ -178,11 +182,11 @@ def test_what_is_less_likely_than_one_in_ten_is_not_what_the_error_resembles():
     unlikely = friction(accepted=False, standing="resembles", presence=0.002, indistinguishable_from=["clearance"])
     other = relaxation(standing="resembles", presence=0.3)
     told = diagnosis(verdict="unexplained", causes=[other, unlikely])
-    assert headline(told).endswith("; it resembles relaxation, with which 14.6 N remain.")
+    assert headline(told).endswith("; it resembles relaxation, with which 14.6 N remain, 1.0 × the noise floor.")
     assert short_headline(told).endswith("it resembles relaxation.")
     alone = diagnosis(verdict="unexplained", causes=[unlikely])
     assert headline(alone).endswith(
-        "; what was added makes up for a part of the force, and nothing tells what it is, with which 14.6 N remain."
+        "; what was added makes up for a part of the force, and nothing tells what it is, with which 14.6 N remain, 1.0 × the noise floor."
     )
     assert short_headline(alone).endswith("no known cause fits.")
     open_end = diagnosis(verdict="ambiguous", causes=[unlikely])
