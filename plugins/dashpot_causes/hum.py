@@ -16,6 +16,8 @@ Array = NDArray[np.float64]
 MAINS = (50.0, 60.0, 100.0, 120.0, 150.0, 180.0)  # Hz, with harmonics
 HIGHEST = 0.4  # of the sampling rate
 BESIDE, RESOLUTIONS = 8, 2.0  # lines to either side, and how far apart they are
+HARMONICS = 5  # of a sine: where laws show
+WIDTH, SINE = 3, 0.9  # lines of a spectrum to either side that belong to a sine; its share of the square of the motion
 
 
 class Hum(Cause):
@@ -58,9 +60,32 @@ def _line(frequency: float, view: View, run: str) -> Array:
 
 
 def _lines_beside(frequency: float, view: View, run: str) -> Array:
+    """Lines that no mains have; where the mains are a harmonic of a sine, its neighbours of the same parity.
+
+    What a model lacks of a law that is the same in both directions has odd harmonics only. One of the first harmonics
+    is told from it by nothing: it stands beside itself.
+    """
     spacing = RESOLUTIONS / (view.step(run) * view.force(run).size)
-    places = [side * number for number in range(1, BESIDE + 1) for side in (-1.0, 1.0)]
-    return np.array([_line(frequency + place * spacing, view, run) for place in places])
+    sine = _frequency_of_sine(view, run)
+    if sine and abs(frequency - sine * round(frequency / sine)) < spacing:
+        if round(frequency / sine) <= HARMONICS:
+            return _line(frequency, view, run)[None]
+        spacing = 2.0 * sine * np.ceil(0.5 * spacing / sine)
+    places = [frequency + side * number * spacing for number in range(1, BESIDE + 1) for side in (-1.0, 1.0)]
+    return np.array([_line(place, view, run) for place in places if (sine or 0.0) < place < 0.5 / view.step(run)])
+
+
+def _frequency_of_sine(view: View, run: str) -> float | None:
+    """The frequency in Hz of a run that is a sine; None for any other motion."""
+    moved = view.displacement(run) - view.displacement(run).mean()
+    spectrum = np.abs(np.fft.rfft(moved * np.hanning(moved.size))) ** 2
+    peak = int(np.argmax(spectrum))
+    if not peak or spectrum[max(peak - WIDTH, 0) : peak + WIDTH + 1].sum() < SINE * spectrum.sum():
+        return None
+    turned = moved * np.exp(-2j * np.pi * peak * np.arange(moved.size) / moved.size)
+    early, late = (np.sum(half * np.hanning(half.size)) for half in np.array_split(turned, 2))
+    bins = peak + np.angle(late * np.conj(early)) / np.pi
+    return float(bins / (moved.size * view.step(run)))
 
 
 def _corrected(frequency: float, strengths: Sequence[float]) -> Correction:

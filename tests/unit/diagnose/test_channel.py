@@ -5,6 +5,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from unit.diagnose.laws import Sine
 from unit.diagnose.rig import (
     MOTIONS,
     NETWORK,
@@ -323,6 +324,29 @@ def test_a_line_among_lines_of_its_kind_is_no_hum():
     missed = [sum(map(line, frequencies, sizes, each)) for each in phases]
     fault = {name: lambda force, more=more: force + more for name, more in zip(MOTIONS, missed, strict=True)}
     assert not [run for run, word in examined(dataset(fault=fault)) if word == "hum"]
+
+
+SINES = {f"f{f:g}_a{a:g}": Sine(1e-3 * a, 8e-3, f) for f in (10.0, 30.0) for a in (1, 3)}
+
+
+def hum_by_sines(frequency, runs):
+    """The runs in which hum is told, where all motions are sines and a line of 12 N is in some of them."""
+    fault = {name: lambda force, k=k: force + line(frequency, 12.0, 1.0 + k) for k, name in enumerate(runs)}
+    return {run for run, word in examined(dataset(motions=SINES, fault=fault)) if word == "hum"}
+
+
+@pytest.mark.parametrize("frequency, run", [(50.0, "f10_a3"), (150.0, "f30_a3")])
+def test_a_harmonic_of_the_motion_alone_is_no_hum(frequency, run):
+    """The mains are the fifth harmonic of 10 and of 30 Hz, where friction has one as well."""
+    assert not hum_by_sines(frequency, [run])
+
+
+def test_hum_that_runs_show_without_a_harmonic_there_is_told_in_all():
+    assert hum_by_sines(50.0, SINES) == set(SINES)
+
+
+def test_hum_at_a_high_harmonic_of_the_motion_is_seen_above_its_neighbours():
+    assert hum_by_sines(150.0, ["f10_a1", "f10_a3"]) == {"f10_a1", "f10_a3"}
 
 
 def test_nats_of_runs_add_up_where_nothing_but_noise_is_left():

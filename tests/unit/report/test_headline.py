@@ -186,7 +186,8 @@ def test_what_is_less_likely_than_one_in_ten_is_not_what_the_error_resembles():
     assert short_headline(told).endswith("it resembles relaxation.")
     alone = diagnosis(verdict="unexplained", causes=[unlikely])
     assert headline(alone).endswith(
-        "; what was added makes up for a part of the force, and nothing tells what it is, with which 14.6 N remain, 1.0 × the noise floor."
+        "; what was added makes up for a part of the force, and nothing tells what it is, with which 14.6 N remain, "
+        "1.0 × the noise floor."
     )
     assert short_headline(alone).endswith("no known cause fits.")
     open_end = diagnosis(verdict="ambiguous", causes=[unlikely])
