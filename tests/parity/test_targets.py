@@ -14,7 +14,7 @@ from seeds import seed_of
 from verification.shipped import NAMES, Dice, filled
 from verification.systems import shipped, system
 
-from dashpot import declare
+from dashpot import declare, load_registry
 from dashpot.data.drive import Drive
 from dashpot.data.excitation import Excitation
 from dashpot.kernel.eager import simulate_interpreted
@@ -23,6 +23,7 @@ from dashpot.kernel.jit import jit_network
 from dashpot.kernel.network import compile_network
 from dashpot.kernel.solution import Status
 from dashpot.model.network import NetworkSpec
+from dashpot.model.reading import parse_network
 from dashpot.testing import random_drive
 
 TOLERANCE = 1e-12
@@ -88,6 +89,33 @@ def test_c_and_the_fast_target_agree_on_random_networks(number, tmp_path):
 def agree_on_numba(number: int, monkeypatch) -> None:
     spec, drive, values = draw_network(seed_of(f"random network {number}"))
     expected = simulate_interpreted(spec, drive, values)
+    assert error(jitted(spec, drive, values), expected) <= TOLERANCE
+    assert error(on_numba(monkeypatch, spec, drive, values), expected) <= TOLERANCE
+
+
+BESIDE = {
+    "gas_spring": "force: 900 N, length: 40 mm, exponent: 1.3",
+    "end_stop": "stiffness: 400 N/mm, compression: 3 mm, rebound: -4 mm",
+    "clearance": "stiffness: 60 N/mm, gap: 1 mm",
+}
+
+
+@pytest.mark.parametrize("element", BESIDE)
+def test_a_law_beside_a_table_has_the_deflection_on_every_target(element, tmp_path, monkeypatch):
+    text = f"""format: dashpot-network/1
+name: both
+branches:
+  curve:
+    element: spring
+    stiffness: {{deflection: [-8 mm, 0 mm, 8 mm], force: [{{start: -1 kN}}, 0 N, {{start: 2 kN}}]}}
+  law: {{element: {element}, {BESIDE[element]}}}
+"""
+    spec = parse_network(text, load_registry().elements)
+    drive = random_drive(np.random.default_rng(seed_of("beside a table")), "multisine", 6e-3, 0.01, 400, 1e-3)
+    values = compile_network(spec).start
+    expected = simulate_interpreted(spec, drive, values)
+    outputs, status = Library.build(spec, tmp_path).along([drive], values)
+    assert status == 0 and error(outputs[:, 0], expected) <= TOLERANCE
     assert error(jitted(spec, drive, values), expected) <= TOLERANCE
     assert error(on_numba(monkeypatch, spec, drive, values), expected) <= TOLERANCE
 

@@ -61,7 +61,8 @@ class Fusion:
 class Layout:
     """The places of a program's nodes during one pass over the lanes; ``updates`` are the states that it moves.
 
-    ``shelves`` says for every curve that lanes look up by themselves where it stands.
+    ``shelves`` says for every curve that lanes look up by themselves where it stands; ``results`` are the nodes that
+    are computed, arguments first.
     """
 
     def __init__(
@@ -77,7 +78,7 @@ class Layout:
         self.states = {name: len(self.constants) + number for number, name in enumerate(program.states)}
         self.lookups = {(look.curve, look.argument.serial): number for number, look in enumerate(program.lookups)}
         roots = [*([force] if force is not None else []), *updates.values()]
-        results = self._results(roots)
+        self.results = results = self._results(roots)
         self.stages = cut_stages(results)
         self.driven = _unique(node for node in (*roots, *_arguments(results)) if self.kind(node) == "drive")
         self.fused = self._fused(results, roots)

@@ -113,9 +113,11 @@ def _write_pass(code: PythonCode, layout: Layout, program: Program) -> str:
         place = code.new(f"4 * index[i + {number}]", "count")
         return _cubic("tables", place, f"local[i + {number}]", node.payload[1])
 
-    given = [node.arguments[0] for node in walk(program.roots) if node.operation == "table"]
-    skipped = {node.serial for node in given}
     roots = [*([layout.force] if layout.force is not None else []), *layout.updates.values()]
+    # a table knows its place by its index: what is given to nothing else is written nowhere
+    given = {node.arguments[0].serial for node in layout.results if node.operation == "table"}
+    asked = (*roots, *(one for node in layout.results if node.operation != "table" for one in node.arguments))
+    skipped = given - {node.serial for node in asked}
     writer = Writer(code, roots, lambda node: "0.0" if node.serial in skipped else leaf(node), look_up)
     if layout.force is not None:
         writer.compute_together()
