@@ -227,7 +227,7 @@ class Pursuer:
             return at.scored(look, at.refitted_under(look, less), odds)
 
         while True:
-            less = each_part_gone(present.model)
+            less = [one for one in each_part_gone(present.model) if not at.refitter.refusal(one, one.terms)]
             trials = forked(refitted, less, at.refitter.jobs, [term for one in less for term in one.terms])
             spare = [one for one in trials if self._is_spare(present, one) and not renamed(one.model)]
             if not spare:

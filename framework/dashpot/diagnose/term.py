@@ -236,18 +236,26 @@ def without_term(model: Model, number: int) -> NetworkSpec | None:
 def each_part_gone(model: Model) -> list[Model]:
     """A fitted structure without each part of those of its terms that have several, to be refitted.
 
-    All other numbers are as they are. A part is a branch: terms whose parts share branches keep them.
+    All other numbers are as they are. A part is a branch: terms whose parts share branches keep them, and so do those
+    on whose numbers another term has put a dependence, which names the branch.
     """
     found = []
     for number, (term, owned) in enumerate(zip(model.terms, model.owned, strict=True)):
         parts = list(dict.fromkeys(path.rpartition(".")[0] for path in owned))
-        if isinstance(term, Term) and len(parts) == len(term.atoms) > 1:
+        if isinstance(term, Term) and len(parts) == len(term.atoms) > 1 and not _named(model, number) & set(parts):
             for k, part in enumerate(parts):
                 less = replace(term, atoms=term.atoms[:k] + term.atoms[k + 1 :])
                 left = tuple(path for path in owned if path.rpartition(".")[0] != part)
                 terms, rest = _with(model.terms, number, less), _with(model.owned, number, left)
                 found.append(replace(model, terms=terms, owned=rest))
     return found
+
+
+def _named(model: Model, number: int) -> set[str]:
+    """The branches that all terms but one name: their own, and those of the numbers that they make depend."""
+    others = (each for k, each in enumerate(model.terms) if k != number and isinstance(each, Term))
+    paths = (path for k, owned in enumerate(model.owned) if k != number for path in owned)
+    return {path.partition(".")[0] for path in (*paths, *(path for each in others for path in each.dependent))}
 
 
 def _with(each: tuple[Any, ...], number: int, one: object) -> tuple[Any, ...]:

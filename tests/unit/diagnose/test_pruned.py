@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 from unit.diagnose.rig import Made, bench, dataset, friction, plain
 
-from dashpot.contract.cause import added_branch
+from dashpot.contract.cause import Suspect, added_branch
 from dashpot.diagnose.folds import folds_of
 from dashpot.diagnose.look import look_at
 from dashpot.diagnose.pursue import Pursuer
 from dashpot.diagnose.score import Added, Scores, Structure
+from dashpot.diagnose.term import Term, each_part_gone
 from dashpot.diagnose.trials import Trials, terms_of
 
 UNITS = {"stiffness": "N/m", "limit": "N"}
@@ -52,8 +55,17 @@ def test_a_cause_without_which_another_one_loses_its_name_is_worth_what_both_are
     assert all(0.0 < cost < float(look.samples.sum()) for cost in single)
 
 
+def two_sliders():
+    """A structure with both sliders of a cause, refitted to data of both."""
+
+    def law(motion):
+        return plain(motion) + sum(friction(motion, 20.0, travel) for travel in (SOFT, STIFF))
+
+    return pruned(law, slider("sliders", SOFT, STIFF, admits=lambda numbers: True), Added(0, (0, 1)))
+
+
 def pruned(law, cause, *added):
-    """What is left of a structure with the ``added`` parts, and the look at it."""
+    """What is left of a structure with the ``added`` parts."""
     made = bench(dataset(law))
     folds = folds_of(made.refitter.runs, made.groups)
     scores = Scores(look_at(made.refitter, made.model, [cause], folds))
@@ -84,3 +96,14 @@ def test_a_part_stays_without_which_its_term_is_not_what_it_is_called():
     two = slider("pair", SOFT, STIFF, admits=lambda numbers: "limit_2" in numbers)
     model = pruned(lambda motion: plain(motion) + friction(motion, 20.0, SOFT), two, Added(0, (0, 1)))
     assert [len(term.atoms) for term in model.causes] == [2]
+
+
+def test_a_part_stays_on_which_another_term_has_put_a_dependence():
+    """The dependence names the branch: without it nothing could be written, or it would stand at another one."""
+    model = two_sliders()
+    assert [[len(term.atoms) for term in less.causes] for less in each_part_gone(model)] == [[1], [1]]
+    [term] = model.causes
+    path = next(path for path in model.owned[-1] if path.endswith(".limit"))
+    suspect = Suspect("line", (0.0,), term.suspect.columns, term.suspect.extend, dependent=(path,))
+    follows = Term(slider("follows", SOFT), suspect, ((1.0, 0.0),))
+    assert not each_part_gone(replace(model, terms=(*model.terms, follows), owned=(*model.owned, ())))
