@@ -20,7 +20,6 @@ from dashpot.diagnose.term import Given, Model
 Array = NDArray[np.float64]
 
 RIDGE = 1e-9
-DISTINCT = 1e-5  # of the square of a column must be left beside the others: else they do together what it does
 ROOM = 30e6  # bytes of what is known beside structures of which terms are gone
 FORM_ERROR = 0.1  # of the force of a term: how far the law of an element may be from the one that acts
 

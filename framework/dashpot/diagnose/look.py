@@ -19,7 +19,7 @@ from dashpot.contract.cause import Cause, ChannelFault
 from dashpot.diagnose.candidate import Candidate
 from dashpot.diagnose.columns import Columns, Layout, linearised, shapes_of
 from dashpot.diagnose.folds import Folds
-from dashpot.diagnose.front import DISTINCT, Front, beside, front_of, in_front
+from dashpot.diagnose.front import RIDGE, Front, beside, front_of, in_front
 from dashpot.diagnose.inside import Inside
 from dashpot.diagnose.location import gather_candidates, locations_of
 from dashpot.diagnose.odds import Odds
@@ -268,17 +268,6 @@ def _beside_shapes(signal: Array, shapes: Array) -> Array:
     return signal - np.linalg.lstsq(shapes.T, signal, rcond=1e-9)[0] @ shapes
 
 
-def _distinct(gram: Array, at: NDArray[np.intp]) -> tuple[NDArray[np.intp], Array]:
-    """Those of some columns that do what no others of them do, and the Cholesky factor of their Gram matrix.
-
-    ``gram`` is that of scaled columns. A place of a grid hardly differs from what its neighbours do together.
-    """
-    from scipy.linalg.lapack import dpstrf
-
-    root, order, rank, _ = dpstrf(gram[np.ix_(at, at)], tol=DISTINCT, lower=1)
-    return at[order[:rank] - 1], np.tril(root[:rank, :rank])
-
-
 def _smallest(run: ScoredRun) -> float:
     """The deviation in N below which nothing is believed."""
     return RESOLUTION * max(float(np.std(run.force)), 1e-12)
@@ -306,12 +295,13 @@ def recorded_noise(columns: Columns, gram: Array, noise: Noise, faults: Mapping[
     are no noise. What the columns and faults take up of the noise itself is made up for, in its size and its spectrum,
     where at least half of the degrees of freedom of a run are left.
     """
-    from scipy.linalg import solve_triangular
+    from scipy.linalg import cholesky, solve_triangular
 
     first = columns.first
     scale = np.sqrt(np.maximum(np.diag(gram), 1e-300))
+    others = np.flatnonzero(np.arange(len(scale)) != first)
     gram = gram / np.outer(scale, scale)
-    others, root = _distinct(gram, np.flatnonzero(np.arange(len(scale)) != first))
+    root = cholesky(gram[np.ix_(others, others)] + RIDGE * np.eye(others.size), lower=True)
     aim = solve_triangular(root, gram[others, first], lower=True) * scale[first]
 
     def left_of(run: ScoredRun) -> tuple[Array, float]:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from dashpot.diagnose.candidate import Candidate
 from dashpot.diagnose.exclusive import can_be_beside, dependent_numbers
-from dashpot.diagnose.front import DISTINCT, NONE, Gram
+from dashpot.diagnose.front import NONE, Gram
 from dashpot.diagnose.score import Added, Scores, Structure, steadied
 from dashpot.diagnose.term import Term
 
@@ -20,6 +20,7 @@ Array = NDArray[np.float64]
 BEAM = 3
 MOST_ADDED = 2  # at one look; a refit and another look follow
 PROPOSED = 8
+LEFT = 1e-5  # of the square of a column must be left beside the others
 SAME = 1e-6  # nats: forms of a cause that are told apart by a refit only, as a line and an exponential
 STALE = 2  # steps of the beam without a better structure
 
@@ -164,7 +165,7 @@ def _places(candidate: Candidate, left: _Projected, open_to: Sequence[bool]) -> 
     """
     suspect, own = candidate.suspect, np.arange(candidate.columns.start, candidate.columns.stop)
     right, sizes = left.right[own], left.sizes[own]
-    alive = np.flatnonzero((sizes > DISTINCT) & open_to)
+    alive = np.flatnonzero((sizes > LEFT) & open_to)
     if not alive.size:
         return None
     if suspect.joint:
@@ -214,7 +215,7 @@ def _gains(matrix: Array, right: Array, chosen: list[int], positive: bool) -> Ar
     across_solved, alone = solved[:, :-1], solved[:, -1]
     sizes = np.diag(matrix) - np.sum(across * across_solved, axis=0)
     rest = right - alone @ across
-    free = sizes > DISTINCT
+    free = sizes > LEFT
     strengths = np.divide(rest, sizes, out=np.zeros_like(rest), where=free)
     gains = np.where(free, right[chosen] @ alone + strengths * rest, -np.inf)
     if positive:
