@@ -52,10 +52,10 @@ def test_a_damping_that_levels_off_is_titled_by_its_form_and_not_as_a_power():
     (told,) = found.as_dict()["causes"]
     assert (told["cause"], told["title"], told["branch"]) == (
         "power_law_damping",
-        "digressive damping",
-        "digressive_damping",
+        "damping that thins with velocity",
+        "power_law_damping",
     )
-    assert "# cause: digressive damping" in found.extended_text
+    assert "# cause: damping that thins with velocity" in found.extended_text
 
 
 WARMTH = dict(zip(MOTIONS, (0.0, 20.0, 40.0, 40.0, 0.0, 20.0), strict=True))  # K
