@@ -20,10 +20,7 @@ UNITS = {"share": "1", "relaxation_time": "s", "time": "s"}
 PLACES = 8
 STEPS = 50
 DIGITS = 8
-LOSS = (
-    1e-3,
-    10.0,
-)  # tangent of the loss angle at the end of the driven band: where a damping over stiffness is searched
+LOSS = (1e-3, 10.0)  # tangent of the loss angle at the end of the driven band, from which to which it is searched
 
 
 def relaxing(view: View, network: NetworkSpec, fastest: float) -> Iterator[Suspect]:

@@ -62,8 +62,8 @@ def _line(frequency: float, view: View, run: str) -> Array:
 def _lines_beside(frequency: float, view: View, run: str) -> Array:
     """Lines that no mains have; where the mains are a harmonic of a sine, its neighbours of the same parity.
 
-    What a model lacks of a law that is the same in both directions has odd harmonics only. One of the first harmonics
-    is told from it by nothing: it stands beside itself.
+    What a model lacks of a law that is the same in both directions has odd harmonics only. Nothing distinguishes the
+    mains from one of the first harmonics: there the answer is the line itself, so that it is no evidence.
     """
     spacing = RESOLUTIONS / (view.step(run) * view.force(run).size)
     sine = _frequency_of_sine(view, run)
